@@ -1,0 +1,99 @@
+//! One case: a vehicle with its wheels and rails, on a track at a speed, and the choices that the
+//! models leave open.
+
+use crate::{track::Track, vehicle::Vehicle, wheel_rail::WheelRail};
+
+/// Everything that an evaluation needs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    /// Speed and track.
+    pub service: Service,
+    /// The vehicle.
+    pub vehicle: Vehicle,
+    /// Its wheels on the rails.
+    pub wheel_rail: WheelRail,
+    /// Modelling choices.
+    pub model: Model,
+}
+
+/// How the vehicle is used.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Service {
+    /// V, m/s.
+    pub speed: f64,
+    /// Irregularities of the tangent track.
+    pub track: Track,
+}
+
+/// How the truck frame rolls in the lateral model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum TruckRoll {
+    /// The mean of its wheelsets' roll (3.4.4.1): 15 degrees of freedom.
+    #[default]
+    Prescribed,
+    /// A degree of freedom of each truck: 17 in all.
+    Dynamic,
+}
+
+/// How crosslevel acts on the lateral model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Crosslevel {
+    /// Through the roll of wheelsets and trucks only (the report's form).
+    #[default]
+    Roll,
+    /// The complete form: contact at rail level, and the weight carried by the tilted truck.
+    Contact,
+}
+
+/// How the creep coefficients of the steady curving model follow the wheel loads (3.4.5).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CurvingCreep {
+    /// As on tangent track.
+    #[default]
+    Static,
+    /// f11, f33 ∝ N^⅔, f12 ∝ N, f22 ∝ N^(4/3) of each wheel.
+    LoadDependent,
+}
+
+/// Choices that the models leave open; the defaults are the report's forms.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Model {
+    /// Truck roll in the lateral model.
+    pub truck_roll: TruckRoll,
+    /// Crosslevel in the lateral model.
+    pub crosslevel: Crosslevel,
+    /// Creep coefficients in the curving model.
+    pub curving_creep: CurvingCreep,
+    /// Band of the random response, Hz: RMS values are defined over it.
+    pub frequency_band: [f64; 2],
+    /// Range of speeds searched for the critical speed, m/s.
+    pub speed_range: [f64; 2],
+}
+
+impl Default for Model {
+    fn default() -> Self {
+        const MPH: f64 = crate::units::us::MILE / 3600.0;
+        Self {
+            truck_roll: TruckRoll::default(),
+            crosslevel: Crosslevel::default(),
+            curving_creep: CurvingCreep::default(),
+            frequency_band: [0.02, 50.0],
+            speed_range: [5.0 * MPH, 600.0 * MPH],
+        }
+    }
+}
+
+impl Case {
+    /// The prototype of Table 4.1.1 at 110 mph on class 6 track.
+    pub fn prototype() -> Self {
+        Self {
+            service: Service {
+                speed: 110.0 * crate::units::us::MILE / 3600.0,
+                track: Track::fra_class(6).expect("class 6 exists"),
+            },
+            vehicle: Vehicle::prototype(),
+            wheel_rail: WheelRail::default(),
+            model: Model::default(),
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! The `bogie` command.
+
+fn main() {}

@@ -1,0 +1,3 @@
+//! Units at the boundary; SI inside.
+
+pub mod us;
