@@ -85,6 +85,10 @@ impl Default for Model {
 
 impl Case {
     /// The prototype of Table 4.1.1 at 110 mph on class 6 track.
+    ///
+    /// # Panics
+    ///
+    /// Never: class 6 is built in.
     pub fn prototype() -> Self {
         Self {
             service: Service {
