@@ -1,6 +1,9 @@
 //! Early design of rail vehicle suspensions from full vehicle models.
 
 pub mod case;
+pub mod closed_form;
+pub mod dynamics;
+pub mod evaluate;
 pub mod track;
 pub mod units;
 pub mod vehicle;

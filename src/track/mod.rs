@@ -28,7 +28,27 @@ pub struct Track {
     pub crosslevel: Spectrum,
 }
 
+/// The independent irregularities of a track.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Irregularity {
+    /// Vertical profile.
+    Vertical,
+    /// Alignment.
+    Alignment,
+    /// Crosslevel.
+    Crosslevel,
+}
+
 impl Track {
+    /// Spectrum of one irregularity.
+    pub fn spectrum(&self, irregularity: Irregularity) -> &Spectrum {
+        match irregularity {
+            Irregularity::Vertical => &self.vertical,
+            Irregularity::Alignment => &self.alignment,
+            Irregularity::Crosslevel => &self.crosslevel,
+        }
+    }
+
     /// Names of the built-in tracks.
     pub fn names() -> impl Iterator<Item = String> {
         (1..=FRA_CLASSES)

@@ -1,0 +1,128 @@
+//! Wheel–rail forces of a wheelset in a steady curve.
+//!
+//! Per wheel, s = +1 outer and −1 inner, with y and ψ of its wheelset:
+//!
+//! ```math
+//! F_x = −s f33 (λ y/r0 − a/R)
+//! F_y = f11 ψ + f12 σ,   σ = 1/R + s δ0/r0 + Δ y/(a r0)
+//! M_z = −f12 ψ + f22 σ
+//! ```
+//!
+//! The normal forces add, for the axle, −(W_A/a)(a11 + Δ) y laterally and +W_A a δ0 ψ in yaw.
+
+use super::{CurvingModel, Segment};
+
+/// Which wheel of a wheelset.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// On the outer rail.
+    Outer,
+    /// On the inner rail.
+    Inner,
+}
+
+impl Side {
+    /// Both sides, outer first.
+    pub const BOTH: [Self; 2] = [Self::Outer, Self::Inner];
+
+    pub(super) fn sign(self) -> f64 {
+        match self {
+            Self::Outer => 1.0,
+            Self::Inner => -1.0,
+        }
+    }
+}
+
+/// Forces of the rail on one wheel, N.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WheelForces {
+    /// F_x, longitudinal creep force.
+    pub longitudinal_creep: f64,
+    /// F_y, lateral creep force, outward positive.
+    pub lateral_creep: f64,
+    /// Lateral force in track plane: creep and the normal force's lateral part,
+    /// −N (s δ0 + (Δ + a11) y/a); outward positive.
+    pub lateral: f64,
+    /// Vertical load.
+    pub vertical: f64,
+    /// Resultant creep force over μN.
+    pub adhesion_used: f64,
+}
+
+impl WheelForces {
+    /// L/V of the wheel.
+    pub fn lateral_to_vertical(&self) -> f64 {
+        self.lateral.abs() / self.vertical
+    }
+}
+
+impl CurvingModel {
+    /// Adds the forces of wheelset `i`, wheel by wheel, to stiffness and loads.
+    pub(super) fn add_wheelset(&mut self, i: usize) {
+        let w = self.vehicle.wheelset;
+        let (a, r0) = (w.half_contact_distance, w.rolling_radius);
+        let axle_load = self.vehicle.axle_load();
+        let (y, psi) = (i, 4 + i);
+        for side in Side::BOTH {
+            let (s, c) = (side.sign(), self.contact[side as usize]);
+            let spin_per_y = c.delta / (a * r0);
+            let spin = s * c.delta_0 / r0;
+            self.stiffness[(y, psi)] -= c.f11;
+            self.stiffness[(y, y)] -= c.f12 * spin_per_y;
+            self.load[y] += c.f12 * spin;
+            self.load_per_curvature[y] += c.f12;
+
+            self.stiffness[(psi, y)] += a * c.f33 * c.conicity / r0 - c.f22 * spin_per_y;
+            self.stiffness[(psi, psi)] += c.f12;
+            self.load[psi] += c.f22 * spin;
+            self.load_per_curvature[psi] += a * a * c.f33 + c.f22;
+        }
+        let c = self.contact[0];
+        self.stiffness[(y, y)] += axle_load / a * (c.a11 + c.delta);
+        self.stiffness[(psi, psi)] -= axle_load * a * c.delta_0;
+    }
+
+    /// Creep forces (F_x, F_y) of a wheel as affine functions of curvature on a segment:
+    /// [at zero curvature, per unit curvature], N and N m.
+    pub(crate) fn creep_forces(&self, segment: &Segment, i: usize, side: Side) -> [[f64; 2]; 2] {
+        let w = self.vehicle.wheelset;
+        let (a, r0) = (w.half_contact_distance, w.rolling_radius);
+        let (s, c) = (side.sign(), self.contact[side as usize]);
+        let part = |x: &nalgebra::DVector<f64>, curvature: f64, profile: f64| {
+            let (y, psi) = (x[i], x[4 + i]);
+            let spin = curvature + profile * s * c.delta_0 / r0 + c.delta * y / (a * r0);
+            [
+                -s * c.f33 * (c.conicity * y / r0 - a * curvature),
+                c.f11 * psi + c.f12 * spin,
+            ]
+        };
+        [
+            part(&segment.at_zero, 0.0, 1.0),
+            part(&segment.per_curvature, 1.0, 0.0),
+        ]
+    }
+
+    /// μN of the wheels on a side, N.
+    pub fn adhesion_limit(&self, side: Side) -> f64 {
+        self.friction * self.wheel_load[side as usize]
+    }
+
+    /// Forces on a wheel of wheelset `i` (0–3) at a curvature, 1/m.
+    pub fn wheel_forces(&self, curvature: f64, i: usize, side: Side) -> WheelForces {
+        let segment = self.segment_at(curvature);
+        let [zero, slope] = self.creep_forces(segment, i, side);
+        let [f_x, f_y] = [0, 1].map(|k| zero[k] + curvature * slope[k]);
+        let c = self.contact[side as usize];
+        let a = self.vehicle.wheelset.half_contact_distance;
+        let y = segment.displacement(i, curvature);
+        let vertical = self.wheel_load[side as usize];
+        let normal = -vertical * (side.sign() * c.delta_0 + (c.delta + c.a11) * y / a);
+        WheelForces {
+            longitudinal_creep: f_x,
+            lateral_creep: f_y,
+            lateral: f_y + normal,
+            vertical,
+            adhesion_used: f_x.hypot(f_y) / self.adhesion_limit(side),
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! Equations of motion: the report's models as matrices.
+
+pub mod curving;
+mod eigen;
+mod forced;
+pub mod lateral;
+mod linear_system;
+mod row;
+pub mod vertical;
+
+pub use eigen::{EigenError, eigenvalues};
+pub use forced::{Excitation, ForcedModel, Output};
+pub use lateral::LateralModel;
+pub use linear_system::{LinearSystem, Speed};
+pub use row::Row;
+pub use vertical::VerticalModel;

@@ -1,0 +1,358 @@
+//! Critical speed: the lowest speed at which an oscillatory mode loses its damping (3.4.4.2).
+//!
+//! Eigenvalues on a grid of speeds, each mode followed from one speed to the next. Where a mode
+//! changes from damped to growing, Newton's method finds the speed exactly. Where a mode's damping
+//! has a minimum between grid points, the minimum is looked up, so that a narrow range of
+//! instability is not stepped over. Last, the vehicle is checked to be stable just below the
+//! lowest crossing.
+
+use nalgebra::Complex;
+
+use super::{
+    hopf::hopf,
+    lateral_modes::OVERDAMPED,
+    mode::{Mode, damping_ratio, frequency},
+};
+use crate::dynamics::{EigenError, LateralModel, eigenvalues, lateral::Body};
+
+/// Speeds in the search grid.
+const GRID: usize = 22;
+/// A minimum of damping below this is looked at more closely.
+const SUSPECT_DAMPING: f64 = 0.03;
+/// Evaluations spent on one minimum.
+const MINIMUM_STEPS: usize = 12;
+/// Divisions of an interval in which several modes lose their damping.
+const DIVISIONS: usize = 12;
+/// Halvings of a speed interval: to 1e-12 of it.
+const BISECTIONS: usize = 40;
+
+/// Which body hunts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Hunting {
+    /// The wheelsets and truck frames carry most of the energy.
+    Truck,
+    /// The carbody does.
+    Carbody,
+}
+
+impl std::fmt::Display for Hunting {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Truck => "truck hunting",
+            Self::Carbody => "carbody hunting",
+        })
+    }
+}
+
+/// A speed at which a mode loses its damping.
+#[derive(Debug, Clone)]
+pub struct Crossing {
+    /// V, m/s.
+    pub speed: f64,
+    /// Hunting frequency, Hz.
+    pub frequency: f64,
+    /// Which body hunts.
+    pub kind: Hunting,
+    /// Shape and left vector.
+    pub mode: Mode,
+}
+
+/// Outcome of the search.
+#[derive(Debug, Clone)]
+pub struct Stability {
+    /// Range searched, m/s.
+    pub range: [f64; 2],
+    /// Onsets of instability in ascending speed. Empty: stable over the whole range.
+    pub onsets: Vec<Crossing>,
+    /// The vehicle already hunts at the lowest speed searched.
+    pub unstable_at_start: bool,
+    /// Lowest grid speed with a growing non-oscillatory motion, m/s.
+    pub divergence: Option<f64>,
+}
+
+impl Stability {
+    /// Searches `range`, m/s.
+    ///
+    /// # Errors
+    ///
+    /// [`EigenError`] if eigenvalues cannot be had.
+    pub fn search(model: &LateralModel, range: [f64; 2]) -> Result<Self, EigenError> {
+        let ratio = (range[1] / range[0]).powf(1.0 / (GRID - 1) as f64);
+        let sweep: Vec<Spectrum> = (0..GRID)
+            .map(|k| Spectrum::at(model, (range[0] * ratio.powi(k as i32)).min(range[1])))
+            .collect::<Result<_, _>>()?;
+        let mut stability = Self {
+            range,
+            onsets: Vec::new(),
+            unstable_at_start: sweep[0].unstable() > 0,
+            divergence: sweep.iter().find(|s| s.diverges).map(|s| s.speed),
+        };
+        for pair in sweep.windows(2) {
+            stability.cross(model, &pair[0], &pair[1], DIVISIONS)?;
+        }
+        for triple in sweep.windows(3) {
+            stability.look_between(model, triple)?;
+        }
+        stability.onsets.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        stability.certify(model, &sweep[0])?;
+        Ok(stability)
+    }
+
+    /// The critical speed, m/s: the lowest onset, or the start of the range if the vehicle already
+    /// hunts there. `None`: stable over the whole range.
+    pub fn critical_speed(&self) -> Option<f64> {
+        if self.unstable_at_start {
+            return Some(self.range[0]);
+        }
+        self.onsets.first().map(|onset| onset.speed)
+    }
+
+    /// Lowest onset of one kind of hunting.
+    pub fn onset(&self, kind: Hunting) -> Option<&Crossing> {
+        self.onsets.iter().find(|onset| onset.kind == kind)
+    }
+
+    /// Adds the onsets between two speeds. Two modes that lose their damping within one interval
+    /// (those of the two trucks nearly coincide) are first told apart by dividing it.
+    fn cross(
+        &mut self,
+        model: &LateralModel,
+        low: &Spectrum,
+        high: &Spectrum,
+        divisions: usize,
+    ) -> Result<(), EigenError> {
+        let lost: Vec<_> = low
+            .follow(high)
+            .into_iter()
+            .filter(|(from, to)| from.re < 0.0 && to.re >= 0.0)
+            .map(|(from, to)| {
+                let t = -from.re / (to.re - from.re);
+                let v = low.speed + t * (high.speed - low.speed);
+                (v, from.im + t * (to.im - from.im))
+            })
+            .collect();
+        if lost.len() > 1 && divisions > 0 {
+            let mean = lost.iter().map(|(v, _)| v).sum::<f64>() / lost.len() as f64;
+            let middle = Spectrum::at(model, mean)?;
+            self.cross(model, low, &middle, divisions - 1)?;
+            return self.cross(model, &middle, high, divisions - 1);
+        }
+        for (v, omega) in lost {
+            let found = hopf(&model.forced.system, v, omega)
+                .filter(|h| h.speed >= low.speed && h.speed <= high.speed);
+            let found = match found {
+                Some(found) => Some(found),
+                None => bisect(model, low, high)?,
+            };
+            if let Some(found) = found {
+                self.add(model, found);
+            }
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, model: &LateralModel, found: super::hopf::Hopf) {
+        let omega = found.mode.eigenvalue.im;
+        let known = |c: &Crossing| {
+            (c.speed / found.speed - 1.0).abs() < 1e-9
+                && (c.mode.eigenvalue.im / omega - 1.0).abs() < 1e-9
+        };
+        if self.onsets.iter().any(known) {
+            return;
+        }
+        let carbody = found.mode.energy_share(&model.forced.system, |i| {
+            model.coordinates.coordinate(i).body() == Body::Carbody
+        });
+        self.onsets.push(Crossing {
+            speed: found.speed,
+            frequency: frequency(found.mode.eigenvalue),
+            kind: if carbody > 0.5 {
+                Hunting::Carbody
+            } else {
+                Hunting::Truck
+            },
+            mode: found.mode,
+        });
+    }
+
+    /// Looks for an instability that begins and ends between grid points.
+    fn look_between(
+        &mut self,
+        model: &LateralModel,
+        triple: &[Spectrum],
+    ) -> Result<(), EigenError> {
+        let [a, b, c] = triple else { return Ok(()) };
+        let before = a.follow(b);
+        let suspects: Vec<Complex<f64>> = b
+            .follow(c)
+            .into_iter()
+            .filter_map(|(mid, after)| {
+                let (first, _) = before.iter().find(|(_, s)| *s == mid)?;
+                let [za, zb, zc] = [*first, mid, after].map(damping_ratio);
+                (zb > 0.0 && zb <= za && zb <= zc && zb < SUSPECT_DAMPING).then_some(mid)
+            })
+            .collect();
+        for start in suspects {
+            // Golden section on the damping of the mode nearest in frequency.
+            const GOLDEN: f64 = 0.618_033_988_749_894_8;
+            let (mut low, mut high) = (a.speed, c.speed);
+            for step in 0..MINIMUM_STEPS {
+                let left = high - GOLDEN * (high - low);
+                let right = low + GOLDEN * (high - low);
+                let probe = if step % 2 == 0 {
+                    [left, right]
+                } else {
+                    [right, left]
+                };
+                let spectra = [
+                    Spectrum::at(model, probe[0])?,
+                    Spectrum::at(model, probe[1])?,
+                ];
+                if let Some(unstable) = spectra.iter().find(|s| s.unstable() > 0) {
+                    self.cross(model, a, unstable, DIVISIONS)?;
+                    break;
+                }
+                let damping = |s: &Spectrum| s.nearest(start).map_or(1.0, damping_ratio);
+                let (first, second) = (damping(&spectra[0]), damping(&spectra[1]));
+                let left_is_less = if step % 2 == 0 {
+                    first < second
+                } else {
+                    second < first
+                };
+                if left_is_less {
+                    high = right;
+                } else {
+                    low = left;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes sure that nothing grows just below the lowest onset.
+    fn certify(&mut self, model: &LateralModel, first: &Spectrum) -> Result<(), EigenError> {
+        for _ in 0..BISECTIONS {
+            let Some(lowest) = self.onsets.first() else {
+                break;
+            };
+            if self.unstable_at_start {
+                break;
+            }
+            let below = Spectrum::at(model, lowest.speed * (1.0 - 1e-6))?;
+            if below.unstable() == 0 {
+                break;
+            }
+            let Some(found) = bisect(model, first, &below)? else {
+                break;
+            };
+            let known = self.onsets.len();
+            self.add(model, found);
+            self.onsets.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+            if self.onsets.len() == known {
+                break;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The lowest change from no growing mode to some, by halving between a stable and an unstable
+/// speed, then Newton.
+fn bisect(
+    model: &LateralModel,
+    low: &Spectrum,
+    high: &Spectrum,
+) -> Result<Option<super::hopf::Hopf>, EigenError> {
+    let (mut low, mut high) = (low.clone(), high.clone());
+    let count = low.unstable();
+    if high.unstable() <= count {
+        return Ok(None);
+    }
+    for _ in 0..BISECTIONS {
+        let middle = Spectrum::at(model, f64::midpoint(low.speed, high.speed))?;
+        if middle.unstable() > count {
+            high = middle;
+        } else {
+            low = middle;
+        }
+        let candidate = high
+            .oscillatory
+            .iter()
+            .filter(|s| s.re >= 0.0)
+            .min_by(|a, b| a.re.total_cmp(&b.re));
+        if let Some(s) = candidate
+            && let Some(found) = hopf(&model.forced.system, high.speed, s.im)
+            && found.speed >= low.speed * (1.0 - 1e-9)
+            && found.speed <= high.speed * (1.0 + 1e-9)
+        {
+            return Ok(Some(found));
+        }
+    }
+    Ok(None)
+}
+
+/// Oscillatory eigenvalues at one speed.
+#[derive(Debug, Clone)]
+struct Spectrum {
+    speed: f64,
+    /// Those with positive imaginary part.
+    oscillatory: Vec<Complex<f64>>,
+    /// Whether a real eigenvalue is positive.
+    diverges: bool,
+}
+
+impl Spectrum {
+    fn at(model: &LateralModel, speed: f64) -> Result<Self, EigenError> {
+        let values = eigenvalues(model.forced.system.state_matrix(speed))?;
+        Ok(Self {
+            speed,
+            diverges: values.iter().any(|s| s.im == 0.0 && s.re > 0.0),
+            oscillatory: values.into_iter().filter(|s| s.im > 0.0).collect(),
+        })
+    }
+
+    fn unstable(&self) -> usize {
+        self.oscillatory.iter().filter(|s| s.re >= 0.0).count()
+    }
+
+    fn nearest(&self, to: Complex<f64>) -> Option<Complex<f64>> {
+        self.oscillatory
+            .iter()
+            .copied()
+            .min_by(|a, b| (a - to).norm_sqr().total_cmp(&(b - to).norm_sqr()))
+    }
+
+    /// Pairs every oscillatory mode with where it is at another speed, the closest pairs first.
+    fn follow(&self, other: &Self) -> Vec<(Complex<f64>, Complex<f64>)> {
+        let relevant = |s: &&Complex<f64>| damping_ratio(**s) < OVERDAMPED;
+        let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+        for (i, from) in self
+            .oscillatory
+            .iter()
+            .enumerate()
+            .filter(|(_, s)| relevant(s))
+        {
+            for (j, to) in other
+                .oscillatory
+                .iter()
+                .enumerate()
+                .filter(|(_, s)| relevant(s))
+            {
+                pairs.push(((from - to).norm() / (from.norm() + to.norm()), i, j));
+            }
+        }
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut taken = (
+            vec![false; self.oscillatory.len()],
+            vec![false; other.oscillatory.len()],
+        );
+        let mut followed = Vec::new();
+        for (_, i, j) in pairs {
+            if !taken.0[i] && !taken.1[j] {
+                (taken.0[i], taken.1[j]) = (true, true);
+                followed.push((self.oscillatory[i], other.oscillatory[j]));
+            }
+        }
+        followed
+    }
+}
