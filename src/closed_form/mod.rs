@@ -1,16 +1,9 @@
-//! tmp
-pub mod kinematic {
-    //! tmp
-    use crate::vehicle::Vehicle;
-    use std::f64::consts::TAU;
-    /// tmp
-    pub fn wheelset_frequency(v: &Vehicle, conicity: f64, speed: f64) -> f64 {
-        speed / TAU
-            * (conicity / (v.wheelset.half_contact_distance * v.wheelset.rolling_radius)).sqrt()
-    }
-    /// tmp
-    pub fn truck_frequency(v: &Vehicle, conicity: f64, speed: f64) -> f64 {
-        let a = v.wheelset.half_contact_distance;
-        wheelset_frequency(v, conicity, speed) * a / a.hypot(v.truck.half_wheelbase)
-    }
-}
+//! The report's closed forms: what a designer checks the full models against by hand.
+//!
+//! One file per section: kinematic (hunting) models (3.5.2, 4.5.3), natural frequencies (3.5.3,
+//! 4.6), simplified curving (4.5.2, Appendix A), corrections of chart readings (4.6).
+
+pub mod corrections;
+pub mod curving;
+pub mod kinematic;
+pub mod natural_frequencies;

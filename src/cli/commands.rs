@@ -1,0 +1,207 @@
+//! One function per command.
+
+use bogie::{
+    design::procedure::{self, DesignError},
+    evaluate::{Evaluation, warnings::warnings},
+    export::{
+        self, curve::Curving, design_json, design_text, evaluation_json, modes, psd::Spectra,
+    },
+    spec::STARTER,
+    track::{MAX_DEGREE, SUPERELEVATION_BASE},
+    units::Quantity,
+};
+use serde_json::Value;
+
+use super::{
+    Done, Failure,
+    arguments::{Curve, Format, Init, Modes, Psd, Run, Source},
+    input, output,
+    progress::Line,
+};
+
+pub fn optimize(run: &Run) -> Result<Done, Failure> {
+    let input::Named { name, spec } = input::read(&run.source.spec)?;
+    let progress = Line::new();
+    let designed = procedure::design(
+        &spec.case,
+        &spec.design,
+        &spec.requirements,
+        &spec.limits,
+        &progress,
+    );
+    progress.finish();
+    let result = designed.map_err(|error| match error {
+        DesignError::NothingOpen | DesignError::NoRequirement => {
+            Failure::Invalid(format!("error: {}: {error}", run.source.spec.display()))
+        }
+        error => failed(error),
+    })?;
+    let warnings = warnings(&result.case, &result.evaluation);
+    deliver(
+        run,
+        "optimize",
+        || design_text::design(&name, &result, &spec.requirements, &spec.limits, &warnings),
+        || {
+            design_json::design(
+                &name,
+                &result,
+                &spec.design,
+                &spec.requirements,
+                &spec.limits,
+                &warnings,
+            )
+        },
+    )?;
+    Ok(if result.unmet.is_empty() {
+        Done::Complete
+    } else {
+        Done::Unmet
+    })
+}
+
+pub fn evaluate(run: &Run) -> Result<Done, Failure> {
+    let input::Named { name, spec } = input::read(&run.source.spec)?;
+    let evaluation = Evaluation::new(&spec.case).map_err(failed)?;
+    let warnings = warnings(&spec.case, &evaluation);
+    deliver(
+        run,
+        "evaluate",
+        || export::evaluation(&name, &spec.case, &evaluation, &warnings),
+        || evaluation_json::evaluation(&name, &spec.case, &evaluation, &warnings),
+    )?;
+    Ok(Done::Complete)
+}
+
+pub fn modes(call: &Modes) -> Result<Done, Failure> {
+    let input::Named { name, spec } = input::read(&call.run.source.spec)?;
+    let speeds = if call.speeds.is_empty() {
+        (1..=10)
+            .map(|i| 0.2 * f64::from(i) * spec.case.service.speed)
+            .collect()
+    } else {
+        call.speeds
+            .iter()
+            .map(|text| speed(text))
+            .collect::<Result<Vec<_>, _>>()?
+    };
+    let modes = modes::Modes::new(&spec.case, &speeds).map_err(failed)?;
+    deliver(
+        &call.run,
+        "modes",
+        || modes.text(&name, &spec.case),
+        || modes.json(&name, &spec.case),
+    )?;
+    Ok(Done::Complete)
+}
+
+pub fn curve(call: &Curve) -> Result<Done, Failure> {
+    let input::Named { name, spec } = input::read(&call.run.source.spec)?;
+    if let Some(degree) = call.degree
+        && !(degree > 0.0 && degree <= MAX_DEGREE)
+    {
+        return Err(wrong(&format!(
+            "--degree {degree}: expected more than 0 and at most {MAX_DEGREE}"
+        )));
+    }
+    let cant_deficiency = cant_deficiency(&call.cant_deficiency)?;
+    let curving = Curving::new(&spec.case, call.degree, cant_deficiency).map_err(failed)?;
+    deliver(
+        &call.run,
+        "curve",
+        || curving.text(&name, &spec.case),
+        || curving.json(&name, &spec.case),
+    )?;
+    Ok(Done::Complete)
+}
+
+pub fn psd(call: &Psd) -> Result<Done, Failure> {
+    let input::Named { name, spec } = input::read(&call.run.source.spec)?;
+    let spectra = Spectra::new(&spec.case, call.points as usize);
+    if call.csv {
+        output::write(&spectra.csv(), call.run.out.as_deref(), "psd.csv")?;
+        return Ok(Done::Complete);
+    }
+    deliver(
+        &call.run,
+        "psd",
+        || spectra.text(&name, &spec.case),
+        || spectra.json(&name, &spec.case),
+    )?;
+    Ok(Done::Complete)
+}
+
+pub fn check(source: &Source) -> Result<Done, Failure> {
+    let input::Named { name, .. } = input::read(&source.spec)?;
+    output::print(&format!("{name}: the spec is in order"))?;
+    Ok(Done::Complete)
+}
+
+pub fn init(call: &Init) -> Result<Done, Failure> {
+    if call.spec.as_os_str() == "-" {
+        output::print(STARTER)?;
+        return Ok(Done::Complete);
+    }
+    if call.spec.exists() {
+        return Err(wrong(&format!(
+            "{} exists; name another file",
+            call.spec.display()
+        )));
+    }
+    export::file::write(&call.spec, STARTER).map_err(|error| {
+        Failure::Failed(format!("cannot write {}: {error}", call.spec.display()))
+    })?;
+    eprintln!("wrote {}", call.spec.display());
+    Ok(Done::Complete)
+}
+
+fn deliver(
+    run: &Run,
+    command: &str,
+    text: impl FnOnce() -> String,
+    json: impl FnOnce() -> Value,
+) -> Result<(), Failure> {
+    let (text, ending) = match run.format {
+        Format::Text => (text(), "txt"),
+        Format::Json => (
+            serde_json::to_string_pretty(&json()).map_err(failed)? + "\n",
+            "json",
+        ),
+    };
+    output::write(&text, run.out.as_deref(), &format!("{command}.{ending}"))
+}
+
+fn failed(error: impl std::fmt::Display) -> Failure {
+    Failure::Failed(error.to_string())
+}
+
+fn wrong(text: &str) -> Failure {
+    Failure::Invalid(format!("error: {text}"))
+}
+
+fn speed(text: &str) -> Result<f64, Failure> {
+    let speed = Quantity::Speed
+        .parse(text)
+        .map_err(|error| wrong(&format!("--speeds: {error}")))?;
+    if speed > 0.0 {
+        Ok(speed)
+    } else {
+        Err(wrong(&format!(
+            "--speeds {text}: expected a positive speed"
+        )))
+    }
+}
+
+/// An angle, or a height over [`SUPERELEVATION_BASE`]; within 30° either way.
+fn cant_deficiency(text: &str) -> Result<f64, Failure> {
+    let angle = Quantity::Angle
+        .parse(text)
+        .or_else(|_| Quantity::Length.parse(text).map(|height| height / SUPERELEVATION_BASE))
+        .map_err(|_| wrong(&format!("--cant-deficiency {text}: expected an angle such as \"3 deg\" or a height such as \"3 in\"")))?;
+    if angle.abs() <= 30_f64.to_radians() {
+        Ok(angle)
+    } else {
+        Err(wrong(&format!(
+            "--cant-deficiency {text}: beyond 30 degrees small angles no longer hold"
+        )))
+    }
+}

@@ -1,0 +1,63 @@
+//! Command line: reads a spec, runs a command, writes its result.
+//!
+//! Results go to standard output or under `--out`, everything else to standard error. Exit codes:
+//! 0 done, 1 a failure, 2 a wrong call or an invalid spec, 3 requirements that cannot all be met
+//! (the result then holds the best compromise).
+
+mod arguments;
+mod commands;
+mod input;
+mod output;
+mod progress;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use arguments::{Arguments, Command};
+
+/// Why a command ends without a result.
+#[derive(Debug)]
+enum Failure {
+    /// The spec or the call is wrong: the text says where and how to mend it.
+    Invalid(String),
+    /// Something else went wrong.
+    Failed(String),
+    /// The reader of our output went away.
+    Closed,
+}
+
+/// How a command that has a result ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Done {
+    /// As asked.
+    Complete,
+    /// Requirements are not met.
+    Unmet,
+}
+
+/// Runs the command that was called.
+pub fn run() -> ExitCode {
+    let arguments = Arguments::parse();
+    let result = match &arguments.command {
+        Command::Optimize(call) => commands::optimize(call),
+        Command::Evaluate(call) => commands::evaluate(call),
+        Command::Modes(call) => commands::modes(call),
+        Command::Curve(call) => commands::curve(call),
+        Command::Psd(call) => commands::psd(call),
+        Command::Check(call) => commands::check(call),
+        Command::Init(call) => commands::init(call),
+    };
+    match result {
+        Ok(Done::Complete) | Err(Failure::Closed) => ExitCode::SUCCESS,
+        Ok(Done::Unmet) => ExitCode::from(3),
+        Err(Failure::Failed(text)) => {
+            eprintln!("error: {text}");
+            ExitCode::from(1)
+        }
+        Err(Failure::Invalid(text)) => {
+            eprintln!("{}", text.trim_end());
+            ExitCode::from(2)
+        }
+    }
+}

@@ -1,0 +1,308 @@
+//! What the design procedure hands over.
+
+use super::{
+    local::Status,
+    problem::{Problem, Variable},
+    ride::PEAK,
+    solve::Solved,
+};
+use crate::{
+    case::Case,
+    evaluate::Evaluation,
+    spec::{Limits, Requirements},
+    units::Quantity,
+};
+
+/// A trade-off of the procedure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// Vertical ride against stroke.
+    Vertical,
+    /// Stability against curving.
+    StabilityCurving,
+    /// Lateral ride against stroke.
+    Lateral,
+}
+
+impl std::fmt::Display for Stage {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Vertical => "vertical ride–stroke",
+            Self::StabilityCurving => "stability–curving",
+            Self::Lateral => "lateral ride–stroke",
+        })
+    }
+}
+
+/// A variable and what was chosen for it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chosen {
+    /// The variable with its bounds.
+    pub variable: Variable,
+    /// Its value, SI.
+    pub value: f64,
+    /// Whether it lies on its lower or upper bound.
+    pub at_bound: Option<Bound>,
+}
+
+/// An end of a variable's range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bound {
+    /// The lower end.
+    Lower,
+    /// The upper end.
+    Upper,
+}
+
+/// What one trade-off gave.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StageResult {
+    /// Which.
+    pub stage: Stage,
+    /// What was maximised or minimised, subject to what.
+    pub goal: String,
+    /// What was chosen.
+    pub chosen: Vec<Chosen>,
+    /// How the search ended.
+    pub status: Status,
+    /// Residual of the first-order conditions, scaled.
+    pub kkt_residual: f64,
+    /// Limits that hold the design back.
+    pub active: Vec<String>,
+    /// Other profiles tried.
+    pub alternatives: Vec<Alternative>,
+    /// Full-model evaluations, all rounds.
+    pub evaluations: usize,
+    /// Of which without a result.
+    pub failed: usize,
+    x: Vec<f64>,
+    before: Vec<f64>,
+}
+
+/// The best that one of several wheel profiles allows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alternative {
+    /// λ.
+    pub conicity: f64,
+    /// How its search ended.
+    pub status: Status,
+    /// Critical speed, m/s; `None`: stable over the range searched.
+    pub critical_speed: Option<f64>,
+    /// Degree curve, degrees.
+    pub degree: f64,
+    /// K_b, N m/rad.
+    pub bending_stiffness: f64,
+    /// K_py, N/m.
+    pub lateral_stiffness: f64,
+}
+
+/// Pieces within this of the largest, or of their limit, count as active: 0.1 %.
+const ACTIVE: f64 = 1e-3;
+
+impl StageResult {
+    pub(super) fn new(
+        stage: Stage,
+        problem: &dyn Problem,
+        solved: &Solved,
+        before: Vec<f64>,
+        alternatives: Vec<Alternative>,
+    ) -> Self {
+        let point = &solved.solution.point;
+        let chosen = problem
+            .variables()
+            .iter()
+            .zip(&point.x)
+            .map(|(variable, &x)| Chosen {
+                variable: variable.clone(),
+                value: variable.value(x),
+                at_bound: if x <= 0.0 {
+                    Some(Bound::Lower)
+                } else if x >= 1.0 {
+                    Some(Bound::Upper)
+                } else {
+                    None
+                },
+            });
+        let mut active = Vec::new();
+        if let Ok(values) = &point.values {
+            let largest = values.objective();
+            let objective = values
+                .objective
+                .iter()
+                .filter(|p| values.objective.len() > 1 && p.value > largest - ACTIVE);
+            let constraints = values.constraints.iter().filter(|p| p.value > -ACTIVE);
+            for piece in objective.chain(constraints) {
+                let name = problem.piece_name(piece.index);
+                if !active.contains(&name) {
+                    active.push(name);
+                }
+            }
+        }
+        Self {
+            stage,
+            goal: problem.goal(),
+            chosen: chosen.collect(),
+            status: solved.solution.status,
+            kkt_residual: solved.solution.kkt_residual,
+            active,
+            alternatives,
+            evaluations: solved.evaluations,
+            failed: solved.failed,
+            x: point.x.clone(),
+            before,
+        }
+    }
+
+    /// Largest change of a scaled variable, or 1 if the conicity changed between profiles.
+    pub(super) fn distance(&self, before: &Case, after: &Case) -> f64 {
+        if self.stage == Stage::StabilityCurving
+            && !self.alternatives.is_empty()
+            && (before.wheel_rail.conicity - after.wheel_rail.conicity).abs() > 0.0
+        {
+            return 1.0;
+        }
+        let pairs = self.x.iter().zip(&self.before);
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+
+    /// Replaces stages by those of a later round, adding up the evaluations.
+    pub(super) fn merge(stages: &mut Vec<Self>, round: Vec<Self>) {
+        for mut later in round {
+            if let Some(earlier) = stages.iter_mut().find(|s| s.stage == later.stage) {
+                later.evaluations += earlier.evaluations;
+                later.failed += earlier.failed;
+                if !earlier.alternatives.is_empty() {
+                    later.alternatives.append(&mut earlier.alternatives);
+                    later
+                        .alternatives
+                        .sort_by(|a, b| a.conicity.total_cmp(&b.conicity));
+                    later
+                        .alternatives
+                        .dedup_by(|a, b| a.conicity.total_cmp(&b.conicity).is_eq());
+                }
+                *earlier = later;
+            } else {
+                stages.push(later);
+            }
+        }
+    }
+}
+
+/// A requirement or limit that the design does not meet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unmet {
+    /// Key in the spec.
+    pub key: &'static str,
+    /// Kind of quantity, for units.
+    pub quantity: Quantity,
+    /// What was asked for, SI.
+    pub required: f64,
+    /// What was reached, SI; `None`: an unstable vehicle has no such performance.
+    pub reached: Option<f64>,
+}
+
+/// A finished design.
+#[derive(Debug, Clone)]
+pub struct DesignResult {
+    /// The case with the designed suspension and profile.
+    pub case: Case,
+    /// Its performance.
+    pub evaluation: Evaluation,
+    /// Performance of the case as the spec gave it.
+    pub before: Evaluation,
+    /// Performance of the design at half the creep coefficients (4.5.4).
+    pub half_kalker: Evaluation,
+    /// The trade-offs, in the order of the procedure.
+    pub stages: Vec<StageResult>,
+    /// Rounds of the coupling loop.
+    pub rounds: usize,
+    /// Whether the last round changed nothing any more.
+    pub settled: bool,
+    /// What could not be met.
+    pub unmet: Vec<Unmet>,
+}
+
+/// A requirement counts as met within this share of it.
+const MET: f64 = 1e-5;
+
+/// The requirements and limits that an evaluated design does not meet.
+pub fn unmet(evaluation: &Evaluation, requirements: &Requirements, limits: &Limits) -> Vec<Unmet> {
+    let lateral = evaluation.lateral.as_ref();
+    let vertical = evaluation.vertical.as_ref();
+    let peak = |rms: &[f64]| PEAK * rms.iter().copied().fold(0.0, f64::max);
+    let degree = evaluation.curving.as_ref().ok().map(|c| c.degree().to_radians());
+    // Stable over the whole range searched: the end of the range is reached at least.
+    let speed = evaluation
+        .stability
+        .critical_speed()
+        .unwrap_or(evaluation.stability.range[1]);
+    let at_least = [
+        (
+            "requirements.critical_speed",
+            Quantity::Speed,
+            requirements.critical_speed,
+            Some(speed),
+        ),
+        (
+            "requirements.degree_curve",
+            Quantity::DegreeOfCurve,
+            requirements.degree_curve.map(f64::to_radians),
+            degree,
+        ),
+    ];
+    let at_most = [
+        (
+            "requirements.lateral_acceleration",
+            Quantity::Acceleration,
+            requirements.lateral_acceleration,
+            lateral.map(|r| r.average_acceleration()),
+        ),
+        (
+            "requirements.vertical_acceleration",
+            Quantity::Acceleration,
+            requirements.vertical_acceleration,
+            vertical.map(|r| r.average_acceleration()),
+        ),
+        (
+            "limits.secondary_lateral_stroke",
+            Quantity::Stroke,
+            limits.secondary_lateral_stroke,
+            lateral.map(|r| peak(&r.secondary_stroke)),
+        ),
+        (
+            "limits.primary_lateral_stroke",
+            Quantity::Stroke,
+            limits.primary_lateral_stroke,
+            lateral.map(|r| peak(&r.primary_stroke)),
+        ),
+        (
+            "limits.wheelset_excursion",
+            Quantity::Stroke,
+            limits.wheelset_excursion,
+            lateral.map(|r| peak(&r.excursion)),
+        ),
+        (
+            "limits.secondary_vertical_stroke",
+            Quantity::Stroke,
+            limits.secondary_vertical_stroke,
+            vertical.map(|r| peak(&r.secondary_stroke)),
+        ),
+    ];
+    let mut unmet = Vec::new();
+    for (sign, (key, quantity, required, reached)) in at_least
+        .into_iter()
+        .map(|r| (1.0, r))
+        .chain(at_most.into_iter().map(|r| (-1.0, r)))
+    {
+        let Some(required) = required else { continue };
+        if reached.is_none_or(|reached| sign * (reached - required) < -MET * required) {
+            unmet.push(Unmet {
+                key,
+                quantity,
+                required,
+                reached,
+            });
+        }
+    }
+    unmet
+}

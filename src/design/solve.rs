@@ -1,0 +1,164 @@
+//! Global search, then local searches from the best designs met.
+
+use super::{
+    evaluations::Evaluations,
+    global, local,
+    local::{Solution, Status},
+    outcome::Stage,
+    problem::{FEASIBLE, Failure, Point, Problem, Values, Variable},
+};
+
+/// What solving a problem gave.
+#[derive(Debug, Clone)]
+pub struct Solved {
+    /// The best design with its certificate.
+    pub solution: Solution,
+    /// Full-model evaluations spent.
+    pub evaluations: usize,
+    /// How many of them had no result.
+    pub failed: usize,
+}
+
+/// Is told how a long search gets on. Calls come from several threads.
+pub trait Progress: Sync {
+    /// A trade-off begins, in this round of the coupling loop.
+    fn stage(&self, stage: Stage, round: usize);
+
+    /// One more full-model evaluation is done.
+    fn evaluated(&self);
+}
+
+/// Progress that nobody watches.
+pub struct Silent;
+
+impl Progress for Silent {
+    fn stage(&self, _: Stage, _: usize) {}
+
+    fn evaluated(&self) {}
+}
+
+/// Where a search begins.
+#[derive(Debug, Clone, Copy)]
+pub enum Start<'a> {
+    /// Anywhere: the global phase with this seed, and designs worth a look.
+    Everywhere { seed: u64, also: &'a [Vec<f64>] },
+    /// Near a design that was optimal for a slightly different vehicle.
+    Near(&'a [f64]),
+}
+
+/// Solves a problem.
+///
+/// # Errors
+///
+/// Why the last design failed, if not one design could be evaluated.
+pub fn solve(
+    problem: &dyn Problem,
+    start: Start,
+    progress: &dyn Progress,
+) -> Result<Solved, Failure> {
+    let evaluations = Evaluations::new(problem, progress);
+    let (starts, radius): (Vec<Point>, f64) = match start {
+        Start::Near(x) => (vec![evaluations.at(x)], local::NARROW),
+        Start::Everywhere { seed, also } => {
+            let mut starts: Vec<Point> = also.iter().map(|x| evaluations.at(x)).collect();
+            starts.extend(global::search(&evaluations, seed));
+            (starts, local::WIDE)
+        }
+    };
+    let mut best: Option<Solution> = None;
+    for start in starts {
+        if start.values.is_err() {
+            continue;
+        }
+        let solution = local::search(&evaluations, start, radius);
+        if best
+            .as_ref()
+            .is_none_or(|b| solution.point.better_than(&b.point))
+        {
+            best = Some(solution);
+        }
+    }
+    let Some(mut solution) = best else {
+        return Err(evaluations.last_failure());
+    };
+    // Never merely the last: whatever evaluation was best.
+    if let Some(point) = evaluations.best()
+        && point.better_than(&solution.point)
+    {
+        let feasible = point
+            .values
+            .as_ref()
+            .is_ok_and(|v| v.violation() <= FEASIBLE);
+        if feasible && improvement(&solution.point, &point) > 1e-6 {
+            solution.status = Status::Stalled;
+        }
+        solution.point = point;
+    }
+    if solution.status == Status::Infeasible {
+        solution = least_violation(problem, &evaluations, solution, progress);
+    }
+    let (evaluations, failed) = evaluations.counts();
+    Ok(Solved {
+        solution,
+        evaluations,
+        failed,
+    })
+}
+
+/// The constraints of a problem as its objective: what comes closest to meeting them.
+struct Violation<'a>(&'a dyn Problem);
+
+impl Problem for Violation<'_> {
+    fn variables(&self) -> &[Variable] {
+        self.0.variables()
+    }
+
+    fn goal(&self) -> String {
+        self.0.goal()
+    }
+
+    fn piece_name(&self, index: usize) -> String {
+        self.0.piece_name(index)
+    }
+
+    fn evaluate(&self, x: &[f64]) -> Result<Values, Failure> {
+        let values = self.0.evaluate(x)?;
+        Ok(Values {
+            objective: values.constraints,
+            constraints: Vec::new(),
+        })
+    }
+}
+
+/// Reduces the largest violation as far as it goes.
+fn least_violation(
+    problem: &dyn Problem,
+    evaluations: &Evaluations,
+    from: Solution,
+    progress: &dyn Progress,
+) -> Solution {
+    let violation = Violation(problem);
+    let relaxed = Evaluations::new(&violation, progress);
+    let start = relaxed.at(&from.point.x);
+    let found = local::search(&relaxed, start, local::WIDE);
+    let point = evaluations.at(&found.point.x);
+    evaluations.add(relaxed.counts());
+    Solution {
+        status: Status::Infeasible,
+        point: if point.better_than(&from.point) {
+            point
+        } else {
+            from.point
+        },
+        ..found
+    }
+}
+
+fn improvement(from: &Point, to: &Point) -> f64 {
+    match (&from.values, &to.values) {
+        (Ok(a), Ok(b)) => {
+            (a.objective() - b.objective()).abs() + (a.violation() - b.violation()).abs()
+        }
+        _ => f64::INFINITY,
+    }
+}

@@ -1,0 +1,115 @@
+//! Modes of the vertical model, named by what moves; they do not depend on the speed.
+
+use super::mode::{Mode, damping_ratio, frequency};
+use crate::dynamics::{EigenError, VerticalModel, eigenvalues, vertical::Coordinate};
+
+/// What a mode of the vertical model does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum VerticalShape {
+    /// Carbody heave.
+    CarbodyHeave,
+    /// Carbody pitch.
+    CarbodyPitch,
+    /// Carbody roll.
+    CarbodyRoll,
+    /// First bending mode of the carbody.
+    Bending,
+    /// First torsion mode of the carbody.
+    Torsion1,
+    /// Second torsion mode of the carbody.
+    Torsion2,
+    /// Truck frames' heave.
+    TruckHeave,
+    /// Truck frames' pitch.
+    TruckPitch,
+    /// Truck frames' roll.
+    TruckRoll,
+}
+
+impl std::fmt::Display for VerticalShape {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::CarbodyHeave => "carbody heave",
+            Self::CarbodyPitch => "carbody pitch",
+            Self::CarbodyRoll => "carbody roll",
+            Self::Bending => "carbody bending",
+            Self::Torsion1 => "carbody torsion, first",
+            Self::Torsion2 => "carbody torsion, second",
+            Self::TruckHeave => "truck bounce",
+            Self::TruckPitch => "truck pitch",
+            Self::TruckRoll => "truck roll",
+        })
+    }
+}
+
+impl VerticalShape {
+    fn of(coordinate: Coordinate) -> Option<Self> {
+        Some(match coordinate {
+            Coordinate::CarbodyHeave => Self::CarbodyHeave,
+            Coordinate::CarbodyRoll => Self::CarbodyRoll,
+            Coordinate::CarbodyPitch => Self::CarbodyPitch,
+            Coordinate::CarbodyBending => Self::Bending,
+            Coordinate::CarbodyTorsion1 => Self::Torsion1,
+            Coordinate::CarbodyTorsion2 => Self::Torsion2,
+            Coordinate::TruckHeave(_) => Self::TruckHeave,
+            Coordinate::TruckRoll(_) => Self::TruckRoll,
+            Coordinate::TruckPitch(_) => Self::TruckPitch,
+            Coordinate::AirSpring(_) => return None,
+        })
+    }
+
+    /// Whether it is a flexible mode of the carbody.
+    pub fn is_flexible(self) -> bool {
+        matches!(self, Self::Bending | Self::Torsion1 | Self::Torsion2)
+    }
+
+    /// Whether the truck frames carry it.
+    pub fn is_truck(self) -> bool {
+        matches!(self, Self::TruckHeave | Self::TruckPitch | Self::TruckRoll)
+    }
+}
+
+/// An oscillatory mode of the vertical model.
+#[derive(Debug, Clone)]
+pub struct VerticalMode {
+    /// |s|/2π, Hz.
+    pub frequency: f64,
+    /// −Re s/|s|.
+    pub damping_ratio: f64,
+    /// What it does: the motion with most of the kinetic energy.
+    pub shape: VerticalShape,
+}
+
+/// Oscillatory modes of the vertical model, ascending in frequency.
+///
+/// # Errors
+///
+/// [`EigenError`] if the eigenvalues cannot be had.
+pub fn vertical_modes(model: &VerticalModel) -> Result<Vec<VerticalMode>, EigenError> {
+    let system = &model.forced.system;
+    // Any speed: the vertical model has no speed-dependent terms.
+    let damping = system.damping_at(1.0);
+    let mut modes = Vec::new();
+    for s in eigenvalues(system.state_matrix(1.0))? {
+        if s.im <= 0.0 {
+            continue;
+        }
+        let mode = Mode::at(system, &damping, s).ok_or(EigenError::NotConverged)?;
+        let share = |shape: VerticalShape| {
+            mode.energy_share(system, |i| {
+                VerticalShape::of(Coordinate::at(i)) == Some(shape)
+            })
+        };
+        let shape = (0..system.order())
+            .filter_map(|i| VerticalShape::of(Coordinate::at(i)))
+            .max_by(|a, b| share(*a).total_cmp(&share(*b)))
+            .ok_or(EigenError::NotConverged)?;
+        modes.push(VerticalMode {
+            frequency: frequency(s),
+            damping_ratio: damping_ratio(s),
+            shape,
+        });
+    }
+    modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+    Ok(modes)
+}

@@ -1,0 +1,212 @@
+//! An evaluation as JSON: SI throughout, the unit in the key.
+
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+use crate::{
+    case::Case,
+    evaluate::{
+        Evaluation,
+        checks::{Check, checks},
+        critical_speed::{Crossing, Stability},
+        curving::LimitedCurve,
+        lateral_modes::{LateralMode, LateralModes},
+        ride::{LateralRide, PassengerRide, VerticalRide},
+        vertical_modes::VerticalMode,
+    },
+    spec,
+};
+
+/// Everything that `bogie evaluate --format json` writes.
+pub fn evaluation(name: &str, case: &Case, evaluation: &Evaluation, warnings: &[String]) -> Value {
+    let mut object = Map::new();
+    object.insert(
+        "program".into(),
+        json!(concat!("bogie ", env!("CARGO_PKG_VERSION"))),
+    );
+    object.insert("name".into(), json!(name));
+    object.insert("speed_m_per_s".into(), json!(case.service.speed));
+    object.insert("track".into(), json!(case.service.track.name));
+    object.insert("track_source".into(), json!(case.service.track.source));
+    object.insert("frequency_band_hz".into(), json!(case.model.frequency_band));
+    object.extend(indices(case, evaluation));
+    object.insert(
+        "checks".into(),
+        json!(
+            checks(case, evaluation)
+                .iter()
+                .map(check)
+                .collect::<Vec<_>>()
+        ),
+    );
+    object.insert(
+        "closed_forms".into(),
+        super::cross_checks::json(case, evaluation),
+    );
+    object.insert("inputs_si".into(), inputs(case));
+    object.insert("warnings".into(), json!(warnings));
+    Value::Object(object)
+}
+
+/// The performance indices at the top level.
+pub(super) fn indices(case: &Case, evaluation: &Evaluation) -> Map<String, Value> {
+    let curving = evaluation.curving.as_ref().ok();
+    let degree = |limited: Option<LimitedCurve>| limited.map(|l| l.degree);
+    let modes = &evaluation.modes;
+    let object = json!({
+        "critical_speed_m_per_s": evaluation.stability.critical_speed(),
+        "stability": stability(&evaluation.stability),
+        "flange_limited_curve_deg": curving.and_then(|c| degree(c.flange)),
+        "slip_limited_curve_deg": curving.and_then(|c| degree(c.slip)),
+        "curving_status": match &evaluation.curving {
+            Ok(_) => "solved".to_string(),
+            Err(error) => error.to_string(),
+        },
+        "flange_limit": curving.and_then(|c| c.flange).map(|l| limited(&l)),
+        "slip_limit": curving.and_then(|c| c.slip).map(|l| limited(&l)),
+        "modes_at_speed": modes.oscillatory.iter().map(mode).collect::<Vec<_>>(),
+        "real_eigenvalues_per_s": modes.real,
+        "stable_at_speed": modes.stable(),
+        "kinematic_mode": modes.kinematic().map(mode),
+        "least_damped_mode": modes.least_damped().map(mode),
+        "vertical_modes": evaluation.vertical_modes.iter().map(vertical_mode).collect::<Vec<_>>(),
+        "lateral": evaluation.lateral.as_ref().map(lateral),
+        "vertical": evaluation.vertical.as_ref().map(vertical),
+        "axle_load_n": case.vehicle.axle_load(),
+    });
+    match object {
+        Value::Object(map) => map,
+        _ => Map::new(),
+    }
+}
+
+/// Every numeric key of the spec with its value in force.
+pub(super) fn inputs(case: &Case) -> Value {
+    let pairs = spec::inputs_si(case);
+    Value::Object(
+        pairs
+            .into_iter()
+            .map(|(path, value)| (path.to_string(), json!(value)))
+            .collect(),
+    )
+}
+
+fn stability(found: &Stability) -> Value {
+    let status = if found.unstable_at_start {
+        "unstable at the lowest speed searched"
+    } else if found.onsets.is_empty() {
+        "stable over the whole range searched"
+    } else {
+        "critical speed found"
+    };
+    json!({
+        "status": status,
+        "speeds_searched_m_per_s": found.range,
+        "onsets": found.onsets.iter().map(onset).collect::<Vec<_>>(),
+        "divergence_m_per_s": found.divergence,
+    })
+}
+
+fn onset(onset: &Crossing) -> Value {
+    json!({
+        "speed_m_per_s": onset.speed,
+        "frequency_hz": onset.frequency,
+        "kind": onset.kind.to_string(),
+    })
+}
+
+fn limited(l: &LimitedCurve) -> Value {
+    json!({
+        "degree_curve_deg": l.degree,
+        "limit": l.limit.to_string(),
+        "other_wheel_adhesion_left": l.other_wheel_reserve,
+    })
+}
+
+pub(super) fn mode(m: &LateralMode) -> Value {
+    json!({
+        "frequency_hz": m.frequency,
+        "damping_ratio": m.damping_ratio,
+        "name": m.shape.to_string(),
+        "carbody_energy_share": m.carbody_share,
+    })
+}
+
+pub(super) fn vertical_mode(m: &VerticalMode) -> Value {
+    json!({
+        "frequency_hz": m.frequency,
+        "damping_ratio": m.damping_ratio,
+        "name": m.shape.to_string(),
+    })
+}
+
+pub(super) fn modes(modes: &LateralModes) -> Vec<Value> {
+    modes.oscillatory.iter().map(mode).collect()
+}
+
+fn points(points: &[PassengerRide; 3], of: impl Fn(&PassengerRide) -> f64) -> [f64; 3] {
+    points.each_ref().map(of)
+}
+
+#[derive(Serialize)]
+struct Bands {
+    centre_hz: Vec<f64>,
+    acceleration_rms_m_per_s2: [Vec<f64>; 3],
+    reduced_comfort_1h_m_per_s2: Vec<Option<f64>>,
+}
+
+fn bands(points: &[PassengerRide; 3]) -> Bands {
+    Bands {
+        centre_hz: points[0].bands.iter().map(|b| b.centre).collect(),
+        acceleration_rms_m_per_s2: points
+            .each_ref()
+            .map(|p| p.bands.iter().map(|b| b.acceleration).collect()),
+        reduced_comfort_1h_m_per_s2: points[0].bands.iter().map(|b| b.boundary).collect(),
+    }
+}
+
+fn lateral(ride: &LateralRide) -> Value {
+    json!({
+        "acceleration_rms_m_per_s2": points(&ride.passengers, |p| p.acceleration),
+        "acceleration_average_m_per_s2": ride.average_acceleration(),
+        "secondary_stroke_rms_m": ride.secondary_stroke,
+        "secondary_stroke_average_m": ride.average_stroke(),
+        "primary_stroke_rms_m": ride.primary_stroke,
+        "primary_longitudinal_stroke_rms_m": ride.longitudinal_stroke,
+        "wheelset_excursion_rms_m": ride.excursion,
+        "roll_acceleration_rms_rad_per_s2": ride.roll_acceleration,
+        "iso_2631_1_wd_rms_m_per_s2": points(&ride.passengers, |p| p.iso_weighted),
+        "en_12299_wd_rms_m_per_s2": points(&ride.passengers, |p| p.en_weighted),
+        "sperling_wz": points(&ride.passengers, |p| p.w_z),
+        "third_octave_bands": bands(&ride.passengers),
+        "converged": ride.converged,
+    })
+}
+
+fn vertical(ride: &VerticalRide) -> Value {
+    json!({
+        "acceleration_rms_m_per_s2": points(&ride.passengers, |p| p.acceleration),
+        "acceleration_average_m_per_s2": ride.average_acceleration(),
+        "secondary_stroke_rms_m": ride.secondary_stroke,
+        "secondary_stroke_average_m": ride.average_stroke(),
+        "primary_stroke_rms_m": ride.primary_stroke,
+        "wheel_load_rms_n": ride.wheel_load,
+        "roll_acceleration_rms_rad_per_s2": ride.roll_acceleration,
+        "iso_2631_1_wk_rms_m_per_s2": points(&ride.passengers, |p| p.iso_weighted),
+        "en_12299_wb_rms_m_per_s2": points(&ride.passengers, |p| p.en_weighted),
+        "sperling_wz": points(&ride.passengers, |p| p.w_z),
+        "third_octave_bands": bands(&ride.passengers),
+        "converged": ride.converged,
+    })
+}
+
+pub(super) fn check(check: &Check) -> Value {
+    json!({
+        "name": check.name,
+        "source": check.source,
+        "value_si": check.value,
+        "limit_si": check.limit,
+        "relation": if check.at_least { "at least" } else { "at most" },
+        "satisfied": check.passed(),
+    })
+}

@@ -1,0 +1,15 @@
+//! Results as text, JSON and CSV.
+
+mod cross_checks;
+pub mod curve;
+pub mod design_json;
+pub mod design_text;
+pub mod evaluation_json;
+mod evaluation_text;
+pub mod file;
+pub mod modes;
+pub mod number;
+pub mod psd;
+mod sheet;
+
+pub use evaluation_text::evaluation;

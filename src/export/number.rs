@@ -1,0 +1,65 @@
+//! Numbers as an engineer writes them.
+
+use crate::units::{DisplayUnit, Quantity};
+
+/// `x` with `figures` significant figures; powers of ten only where plain digits get unreadable.
+pub fn significant(x: f64, figures: i32) -> String {
+    if x == 0.0 {
+        return "0".into();
+    }
+    if !x.is_finite() {
+        return "–".into();
+    }
+    // Rounding may carry into the next decade: 9.996 to three figures is 10.0.
+    let rounded: f64 = format!("{x:.*e}", usize::try_from(figures - 1).unwrap_or(0))
+        .parse()
+        .unwrap_or(x);
+    let exponent = rounded.abs().log10().floor() as i32;
+    if !(-4..7).contains(&exponent) {
+        return format!("{rounded:.*e}", usize::try_from(figures - 1).unwrap_or(0));
+    }
+    let decimals = (figures - 1 - exponent).max(0);
+    format!("{rounded:.*}", usize::try_from(decimals).unwrap_or(0))
+}
+
+/// A value in one unit, with its label.
+pub fn in_unit(unit: DisplayUnit, si: f64, figures: i32) -> String {
+    let number = significant(unit.of(si), figures);
+    match unit.label {
+        "" => number,
+        "deg" => format!("{number}°"),
+        label => format!("{number} {label}"),
+    }
+}
+
+/// A value in SI and US customary units, four figures.
+pub fn both(quantity: Quantity, si: f64) -> [String; 2] {
+    let (si_unit, us_unit) = (quantity.si(), quantity.us());
+    let us = if si_unit.label == us_unit.label {
+        String::new()
+    } else {
+        in_unit(us_unit, si, 4)
+    };
+    [in_unit(si_unit, si, 4), us]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures() {
+        for (x, text) in [
+            (9.9996, "10.00"),
+            (0.051_23, "0.05123"),
+            (205.04, "205.0"),
+            (1_234_567.0, "1234567"),
+            (28_239_202.0, "2.824e7"),
+            (-0.000_012_34, "-1.234e-5"),
+            (0.0, "0"),
+            (f64::NAN, "–"),
+        ] {
+            assert_eq!(significant(x, 4), text);
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! `bogie psd`: power spectra of accelerations and strokes against frequency.
+
+use std::fmt::Write;
+
+use serde_json::{Map, Value, json};
+
+use super::{evaluation_text::title, number::significant, sheet::Sheet};
+use crate::{
+    case::Case,
+    dynamics::{ForcedModel, LateralModel, VerticalModel, eigenvalues, lateral, vertical},
+    evaluate::response::Response,
+};
+
+/// A spectrum: name with unit, values.
+type Column = (&'static str, Vec<f64>);
+
+/// One-sided power spectral densities per Hz.
+#[derive(Debug, Clone)]
+pub struct Spectra {
+    /// Hz.
+    pub frequency: Vec<f64>,
+    /// Lateral outputs; `None`: unstable at the speed, so there is no stationary response.
+    pub lateral: Option<Vec<Column>>,
+    /// Vertical outputs.
+    pub vertical: Vec<Column>,
+}
+
+const LATERAL: [(&str, usize); 7] = [
+    (
+        "acceleration_cg_m2_per_s4_hz",
+        lateral::output::ACCELERATION.start,
+    ),
+    (
+        "acceleration_front_m2_per_s4_hz",
+        lateral::output::ACCELERATION.start + 1,
+    ),
+    (
+        "acceleration_rear_m2_per_s4_hz",
+        lateral::output::ACCELERATION.start + 2,
+    ),
+    (
+        "roll_acceleration_rad2_per_s4_hz",
+        lateral::output::ROLL_ACCELERATION,
+    ),
+    (
+        "secondary_stroke_leading_m2_per_hz",
+        lateral::output::SECONDARY_STROKE.start,
+    ),
+    (
+        "secondary_stroke_trailing_m2_per_hz",
+        lateral::output::SECONDARY_STROKE.start + 1,
+    ),
+    (
+        "wheelset_1_excursion_m2_per_hz",
+        lateral::output::EXCURSION.start,
+    ),
+];
+
+const VERTICAL: [(&str, usize); 7] = [
+    (
+        "acceleration_cg_m2_per_s4_hz",
+        vertical::output::ACCELERATION.start,
+    ),
+    (
+        "acceleration_front_m2_per_s4_hz",
+        vertical::output::ACCELERATION.start + 1,
+    ),
+    (
+        "acceleration_rear_m2_per_s4_hz",
+        vertical::output::ACCELERATION.start + 2,
+    ),
+    (
+        "roll_acceleration_rad2_per_s4_hz",
+        vertical::output::ROLL_ACCELERATION,
+    ),
+    (
+        "secondary_stroke_leading_m2_per_hz",
+        vertical::output::SECONDARY_STROKE.start,
+    ),
+    (
+        "secondary_stroke_trailing_m2_per_hz",
+        vertical::output::SECONDARY_STROKE.start + 1,
+    ),
+    ("wheel_1_load_n2_per_hz", vertical::output::WHEEL_LOAD.start),
+];
+
+impl Spectra {
+    /// Spectra at `points` frequencies, equally spaced on a logarithmic axis over the band of the
+    /// case.
+    pub fn new(case: &Case, points: usize) -> Self {
+        let [low, high] = case.model.frequency_band;
+        let step = (high / low).ln() / (points.max(2) - 1) as f64;
+        let frequency: Vec<f64> = (0..points.max(2))
+            .map(|i| low * (step * i as f64).exp())
+            .collect();
+        let model = LateralModel::new(case);
+        let stable = eigenvalues(model.forced.system.state_matrix(case.service.speed))
+            .is_ok_and(|values| values.iter().all(|s| s.re < 0.0));
+        let lateral = stable.then(|| columns(&model.forced, case, &frequency, &LATERAL));
+        let vertical = columns(
+            &VerticalModel::new(case).forced,
+            case,
+            &frequency,
+            &VERTICAL,
+        );
+        Self {
+            frequency,
+            lateral,
+            vertical,
+        }
+    }
+
+    /// As text: accelerations and strokes at every fourth frequency.
+    pub fn text(&self, name: &str, case: &Case) -> String {
+        let mut sheet = Sheet::new(&title(name, case));
+        for (heading, columns) in [
+            ("Lateral", self.lateral.as_ref()),
+            ("Vertical", Some(&self.vertical)),
+        ] {
+            let Some(columns) = columns else {
+                sheet.heading(heading);
+                sheet.line(
+                    "none: unstable at the operating speed, so there is no stationary response",
+                );
+                continue;
+            };
+            sheet.heading(&format!("{heading} power spectral density (one-sided)"));
+            let rows: Vec<Vec<String>> = (0..self.frequency.len())
+                .step_by(4)
+                .map(|i| {
+                    let mut row = vec![significant(self.frequency[i], 3)];
+                    row.extend(
+                        columns[..6]
+                            .iter()
+                            .map(|(_, values)| significant(values[i], 3)),
+                    );
+                    row
+                })
+                .collect();
+            sheet.table(
+                &[
+                    "Hz",
+                    "c.g. (m/s²)²/Hz",
+                    "front",
+                    "rear",
+                    "roll (rad/s²)²/Hz",
+                    "stroke 1 m²/Hz",
+                    "stroke 2",
+                ],
+                &[],
+                &rows,
+            );
+        }
+        sheet.finish()
+    }
+
+    /// As JSON.
+    pub fn json(&self, name: &str, case: &Case) -> Value {
+        let object = |columns: &[Column]| {
+            Value::Object(
+                columns
+                    .iter()
+                    .map(|(n, v)| ((*n).to_string(), json!(v)))
+                    .collect::<Map<_, _>>(),
+            )
+        };
+        json!({
+            "name": name,
+            "speed_m_per_s": case.service.speed,
+            "track": case.service.track.name,
+            "frequency_hz": self.frequency,
+            "lateral": self.lateral.as_deref().map(object),
+            "vertical": object(&self.vertical),
+        })
+    }
+
+    /// As CSV, a row per frequency.
+    pub fn csv(&self) -> String {
+        let mut text = String::from("frequency_hz");
+        let lateral = self.lateral.iter().flatten().map(|c| ("lateral", c));
+        let columns: Vec<_> = lateral
+            .chain(self.vertical.iter().map(|c| ("vertical", c)))
+            .collect();
+        for (direction, (name, _)) in &columns {
+            let _ = write!(text, ",{direction}_{name}");
+        }
+        text.push('\n');
+        for (i, f) in self.frequency.iter().enumerate() {
+            let _ = write!(text, "{f}");
+            for (_, (_, values)) in &columns {
+                let _ = write!(text, ",{}", values[i]);
+            }
+            text.push('\n');
+        }
+        text
+    }
+}
+
+fn columns(
+    model: &ForcedModel,
+    case: &Case,
+    frequency: &[f64],
+    wanted: &[(&'static str, usize)],
+) -> Vec<Column> {
+    let mut response = Response::new(model, &case.service.track, case.service.speed);
+    let mut densities = vec![0.0; model.outputs.len()];
+    let mut columns: Vec<Column> = wanted.iter().map(|(name, _)| (*name, Vec::new())).collect();
+    for &f in frequency {
+        response.densities(f, &mut densities);
+        for ((_, values), (_, output)) in columns.iter_mut().zip(wanted) {
+            values.push(densities[*output]);
+        }
+    }
+    columns
+}
