@@ -10,7 +10,7 @@ use crate::{
 /// A line of the form.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Line {
-    /// Step of Table 4.6.1.
+    /// Step of Table 4.6.1; empty for a further entry of the same step.
     pub step: &'static str,
     /// What is entered.
     pub text: &'static str,
@@ -22,29 +22,38 @@ pub struct Line {
     pub value: Option<f64>,
 }
 
-/// Fills the form. Where the report adds up chart readings (steps 6, 7, 14, 15, 22, 23), the full
-/// models give the sum directly.
-pub fn form(result: &DesignResult, requirements: &Requirements, limits: &Limits) -> Vec<Line> {
-    use Quantity::{
-        Acceleration, Damping, DegreeOfCurve, Dimensionless, Force, Frequency, LateralSpinCreep,
-        RotationalDamping, RotationalStiffness, Speed, SpinCreep, Stiffness, Stroke,
-    };
-    let case = &result.case;
-    let vehicle = &case.vehicle;
-    let (primary, secondary) = (&vehicle.suspension.primary, &vehicle.suspension.secondary);
-    let contact = case.wheel_rail.contact();
-    let mass = vehicle.carbody.mass;
-    let lateral = result.evaluation.lateral.as_ref();
-    let vertical = result.evaluation.vertical.as_ref();
-    // The report's strokes are RMS averages of both ends; the limits are peaks.
-    let rms = |peak: Option<f64>| peak.map(|p| p / super::ride::PEAK);
-    let line = |step, text, symbol, quantity, value| Line {
+fn line(
+    step: &'static str,
+    text: &'static str,
+    symbol: &'static str,
+    quantity: Quantity,
+    value: impl Into<Option<f64>>,
+) -> Line {
+    Line {
         step,
         text,
         symbol,
         quantity,
-        value,
-    };
+        value: value.into(),
+    }
+}
+
+/// Fills the form. Where the report adds up chart readings (steps 6, 7, 14, 15, 22, 23), the full
+/// models give the sum directly.
+pub fn form(result: &DesignResult, requirements: &Requirements, limits: &Limits) -> Vec<Line> {
+    let mut lines = wheel_rail(result, requirements);
+    lines.extend(stability_curving(result));
+    lines.extend(lateral(result, requirements, limits));
+    lines.extend(vertical(result, requirements, limits));
+    lines.extend(dependent(result));
+    lines
+}
+
+/// Steps 1–3.
+fn wheel_rail(result: &DesignResult, requirements: &Requirements) -> Vec<Line> {
+    use Quantity::{DegreeOfCurve, Dimensionless, Force, LateralSpinCreep, Speed, SpinCreep};
+    let c = result.case.wheel_rail.contact();
+    let degree = requirements.degree_curve.map(f64::to_radians);
     vec![
         line(
             "1",
@@ -53,283 +62,239 @@ pub fn form(result: &DesignResult, requirements: &Requirements, limits: &Limits)
             Speed,
             requirements.critical_speed,
         ),
-        line(
-            "2",
-            "desired degree curve",
-            "D*",
-            DegreeOfCurve,
-            requirements.degree_curve.map(f64::to_radians),
-        ),
-        line(
-            "3",
-            "wheel conicity",
-            "λ",
-            Dimensionless,
-            Some(contact.conicity),
-        ),
+        line("2", "desired degree curve", "D*", DegreeOfCurve, degree),
+        line("3", "wheel conicity", "λ", Dimensionless, c.conicity),
         line(
             "",
             "contact angle difference coefficient",
             "Δ",
             Dimensionless,
-            Some(contact.delta),
+            c.delta,
         ),
-        line(
-            "",
-            "centred contact angle",
-            "δ0",
-            Dimensionless,
-            Some(contact.delta_0),
-        ),
-        line(
-            "",
-            "wheelset roll coefficient",
-            "a11",
-            Dimensionless,
-            Some(contact.a11),
-        ),
-        line(
-            "",
-            "lateral creep coefficient",
-            "f11",
-            Force,
-            Some(contact.f11),
-        ),
+        line("", "centred contact angle", "δ0", Dimensionless, c.delta_0),
+        line("", "wheelset roll coefficient", "a11", Dimensionless, c.a11),
+        line("", "lateral creep coefficient", "f11", Force, c.f11),
         line(
             "",
             "lateral–spin creep coefficient",
             "f12",
             LateralSpinCreep,
-            Some(contact.f12),
+            c.f12,
         ),
-        line(
-            "",
-            "spin creep coefficient",
-            "f22",
-            SpinCreep,
-            Some(contact.f22),
-        ),
-        line(
-            "",
-            "longitudinal creep coefficient",
-            "f33",
-            Force,
-            Some(contact.f33),
-        ),
+        line("", "spin creep coefficient", "f22", SpinCreep, c.f22),
+        line("", "longitudinal creep coefficient", "f33", Force, c.f33),
+    ]
+}
+
+/// Steps 4–8.
+fn stability_curving(result: &DesignResult) -> Vec<Line> {
+    use Quantity::{DegreeOfCurve, RotationalStiffness, Speed, Stiffness, Stroke};
+    let vehicle = &result.case.vehicle;
+    let primary = &vehicle.suspension.primary;
+    let evaluation = &result.evaluation;
+    let ride = evaluation.lateral.as_ref();
+    let degree = evaluation
+        .curving
+        .as_ref()
+        .ok()
+        .map(|c| c.degree().to_radians());
+    let bending = vehicle.bending_stiffness();
+    vec![
         line(
             "4",
             "primary lateral stiffness",
             "K_py",
             Stiffness,
-            Some(primary.lateral_stiffness),
+            primary.lateral_stiffness,
         ),
         line(
             "",
             "primary bending stiffness",
             "K_b",
             RotationalStiffness,
-            Some(vehicle.bending_stiffness()),
+            bending,
         ),
         line(
             "",
             "critical speed",
             "V_cr",
             Speed,
-            result.evaluation.stability.critical_speed(),
+            evaluation.stability.critical_speed(),
         ),
-        line(
-            "",
-            "degree curve",
-            "D",
-            DegreeOfCurve,
-            result
-                .evaluation
-                .curving
-                .as_ref()
-                .ok()
-                .map(|c| c.degree().to_radians()),
-        ),
+        line("", "degree curve", "D", DegreeOfCurve, degree),
         line(
             "5",
             "primary longitudinal stiffness",
             "K_px",
             Stiffness,
-            Some(primary.longitudinal_stiffness),
+            primary.longitudinal_stiffness,
         ),
         line(
             "6d",
             "RMS primary stroke, wheelset 4",
             "PS",
             Stroke,
-            lateral.map(|r| r.primary_stroke[3]),
+            ride.map(|r| r.primary_stroke[3]),
         ),
         line(
             "7d",
             "RMS wheelset excursion, wheelset 1",
             "WE",
             Stroke,
-            lateral.map(|r| r.excursion[0]),
+            ride.map(|r| r.excursion[0]),
         ),
+    ]
+}
+
+/// The report's desired strokes are RMS values; limits are peaks.
+fn rms(peak: Option<f64>) -> Option<f64> {
+    peak.map(|p| p / super::ride::PEAK)
+}
+
+/// Steps 9–16.
+fn lateral(result: &DesignResult, requirements: &Requirements, limits: &Limits) -> Vec<Line> {
+    use Quantity::{Acceleration, Damping, Dimensionless, Frequency, Stiffness, Stroke};
+    let mass = result.case.vehicle.carbody.mass;
+    let s = &result.case.vehicle.suspension.secondary;
+    let (k, c) = (s.lateral_stiffness, s.lateral_damping);
+    let ride = result.evaluation.lateral.as_ref();
+    let desired = requirements.lateral_acceleration;
+    let stroke = rms(limits.secondary_lateral_stroke);
+    vec![
         line(
             "9",
             "desired RMS lateral acceleration",
             "ACC_L*",
             Acceleration,
-            requirements.lateral_acceleration,
+            desired,
         ),
         line(
             "10",
             "desired RMS secondary lateral stroke",
             "ST_L*",
             Stroke,
-            rms(limits.secondary_lateral_stroke),
+            stroke,
         ),
         line(
             "11",
             "lateral natural frequency",
             "f_nL",
             Frequency,
-            Some(closed::secondary_frequency(
-                mass,
-                secondary.lateral_stiffness,
-            )),
+            closed::secondary_frequency(mass, k),
         ),
         line(
             "",
             "lateral damping ratio",
             "ξ_L",
             Dimensionless,
-            Some(closed::secondary_damping_ratio(
-                mass,
-                secondary.lateral_stiffness,
-                secondary.lateral_damping,
-            )),
+            closed::secondary_damping_ratio(mass, k, c),
         ),
-        line(
-            "12",
-            "secondary lateral stiffness",
-            "K_sy",
-            Stiffness,
-            Some(secondary.lateral_stiffness),
-        ),
-        line(
-            "13",
-            "secondary lateral damping",
-            "C_sy",
-            Damping,
-            Some(secondary.lateral_damping),
-        ),
+        line("12", "secondary lateral stiffness", "K_sy", Stiffness, k),
+        line("13", "secondary lateral damping", "C_sy", Damping, c),
         line(
             "14d",
             "RMS lateral acceleration",
             "ACC_L",
             Acceleration,
-            lateral.map(|r| r.average_acceleration()),
+            ride.map(|r| r.average_acceleration()),
         ),
         line(
             "15d",
             "RMS secondary lateral stroke",
             "ST_L",
             Stroke,
-            lateral.map(|r| r.average_stroke()),
+            ride.map(|r| r.average_stroke()),
         ),
+    ]
+}
+
+/// Steps 17–24.
+fn vertical(result: &DesignResult, requirements: &Requirements, limits: &Limits) -> Vec<Line> {
+    use Quantity::{Acceleration, Damping, Dimensionless, Frequency, Stiffness, Stroke};
+    let mass = result.case.vehicle.carbody.mass;
+    let s = &result.case.vehicle.suspension.secondary;
+    let (k, c) = (s.vertical_stiffness, s.vertical_damping);
+    let ride = result.evaluation.vertical.as_ref();
+    let desired = requirements.vertical_acceleration;
+    let stroke = rms(limits.secondary_vertical_stroke);
+    vec![
         line(
             "17",
             "desired RMS vertical acceleration",
             "ACC_v*",
             Acceleration,
-            requirements.vertical_acceleration,
+            desired,
         ),
         line(
             "18",
             "desired RMS secondary vertical stroke",
             "ST_v*",
             Stroke,
-            rms(limits.secondary_vertical_stroke),
+            stroke,
         ),
         line(
             "19",
             "vertical natural frequency",
             "f_nv",
             Frequency,
-            Some(closed::secondary_frequency(
-                mass,
-                secondary.vertical_stiffness,
-            )),
+            closed::secondary_frequency(mass, k),
         ),
         line(
             "",
             "vertical damping ratio",
             "ξ_v",
             Dimensionless,
-            Some(closed::secondary_damping_ratio(
-                mass,
-                secondary.vertical_stiffness,
-                secondary.vertical_damping,
-            )),
+            closed::secondary_damping_ratio(mass, k, c),
         ),
-        line(
-            "20",
-            "secondary vertical stiffness",
-            "K_sz",
-            Stiffness,
-            Some(secondary.vertical_stiffness),
-        ),
-        line(
-            "21",
-            "secondary vertical damping",
-            "C_sz",
-            Damping,
-            Some(secondary.vertical_damping),
-        ),
+        line("20", "secondary vertical stiffness", "K_sz", Stiffness, k),
+        line("21", "secondary vertical damping", "C_sz", Damping, c),
         line(
             "22",
             "RMS vertical acceleration",
             "ACC_v",
             Acceleration,
-            vertical.map(|r| r.average_acceleration()),
+            ride.map(|r| r.average_acceleration()),
         ),
         line(
             "23",
             "RMS secondary vertical stroke",
             "ST_v",
             Stroke,
-            vertical.map(|r| r.average_stroke()),
+            ride.map(|r| r.average_stroke()),
         ),
+    ]
+}
+
+/// Step 25.
+fn dependent(result: &DesignResult) -> Vec<Line> {
+    use Quantity::{Damping, RotationalDamping, Stiffness};
+    let (p, s) = (
+        &result.case.vehicle.suspension.primary,
+        &result.case.vehicle.suspension.secondary,
+    );
+    vec![
         line(
             "25",
             "primary longitudinal damping",
             "C_px",
             Damping,
-            Some(primary.c_px()),
+            p.c_px(),
         ),
-        line(
-            "",
-            "primary lateral damping",
-            "C_py",
-            Damping,
-            Some(primary.c_py()),
-        ),
+        line("", "primary lateral damping", "C_py", Damping, p.c_py()),
         line(
             "",
             "primary vertical stiffness",
             "K_pz",
             Stiffness,
-            Some(primary.vertical_stiffness),
+            p.vertical_stiffness,
         ),
-        line(
-            "",
-            "primary vertical damping",
-            "C_pz",
-            Damping,
-            Some(primary.c_pz()),
-        ),
+        line("", "primary vertical damping", "C_pz", Damping, p.c_pz()),
         line(
             "",
             "secondary yaw damping",
             "C_sψ",
             RotationalDamping,
-            Some(secondary.c_spsi()),
+            s.c_spsi(),
         ),
     ]
 }

@@ -230,7 +230,11 @@ pub fn unmet(evaluation: &Evaluation, requirements: &Requirements, limits: &Limi
     let lateral = evaluation.lateral.as_ref();
     let vertical = evaluation.vertical.as_ref();
     let peak = |rms: &[f64]| PEAK * rms.iter().copied().fold(0.0, f64::max);
-    let degree = evaluation.curving.as_ref().ok().map(|c| c.degree().to_radians());
+    let degree = evaluation
+        .curving
+        .as_ref()
+        .ok()
+        .map(|c| c.degree().to_radians());
     // Stable over the whole range searched: the end of the range is reached at least.
     let speed = evaluation
         .stability
@@ -255,13 +259,13 @@ pub fn unmet(evaluation: &Evaluation, requirements: &Requirements, limits: &Limi
             "requirements.lateral_acceleration",
             Quantity::Acceleration,
             requirements.lateral_acceleration,
-            lateral.map(|r| r.average_acceleration()),
+            lateral.map(super::super::evaluate::ride::LateralRide::average_acceleration),
         ),
         (
             "requirements.vertical_acceleration",
             Quantity::Acceleration,
             requirements.vertical_acceleration,
-            vertical.map(|r| r.average_acceleration()),
+            vertical.map(super::super::evaluate::ride::VerticalRide::average_acceleration),
         ),
         (
             "limits.secondary_lateral_stroke",

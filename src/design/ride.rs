@@ -33,7 +33,10 @@ pub enum Goal {
     /// The least average RMS acceleration within the limits.
     Acceleration,
     /// The least secondary stroke within the limits and this average RMS acceleration, m/s².
-    Stroke { acceleration: f64 },
+    Stroke {
+        /// m/s².
+        acceleration: f64,
+    },
 }
 
 /// Peak motions that must not be exceeded by three standard deviations, m.

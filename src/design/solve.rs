@@ -41,7 +41,12 @@ impl Progress for Silent {
 #[derive(Debug, Clone, Copy)]
 pub enum Start<'a> {
     /// Anywhere: the global phase with this seed, and designs worth a look.
-    Everywhere { seed: u64, also: &'a [Vec<f64>] },
+    Everywhere {
+        /// Of the global phase.
+        seed: u64,
+        /// Designs worth a look, in scaled coordinates.
+        also: &'a [Vec<f64>],
+    },
     /// Near a design that was optimal for a slightly different vehicle.
     Near(&'a [f64]),
 }

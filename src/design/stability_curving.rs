@@ -20,11 +20,22 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Goal {
     /// The highest degree curve with at least this critical speed, m/s.
-    Curving { critical_speed: f64 },
+    Curving {
+        /// m/s.
+        critical_speed: f64,
+    },
     /// The highest critical speed with at least this degree curve, degrees.
-    Stability { degree: f64 },
+    Stability {
+        /// Degrees.
+        degree: f64,
+    },
     /// The largest smaller margin over both.
-    Both { critical_speed: f64, degree: f64 },
+    Both {
+        /// m/s.
+        critical_speed: f64,
+        /// Degrees.
+        degree: f64,
+    },
 }
 
 /// The variables of the trade-off, with their bounds where open.

@@ -77,9 +77,9 @@ impl Stability {
     ///
     /// [`EigenError`] if eigenvalues cannot be had.
     pub fn search(model: &LateralModel, range: [f64; 2]) -> Result<Self, EigenError> {
-        let ratio = (range[1] / range[0]).powf(1.0 / (GRID - 1) as f64);
+        let ratio = range[1] / range[0];
         let sweep: Vec<Spectrum> = (0..GRID)
-            .map(|k| Spectrum::at(model, (range[0] * ratio.powi(k as i32)).min(range[1])))
+            .map(|k| Spectrum::at(model, range[0] * ratio.powf(k as f64 / (GRID - 1) as f64)))
             .collect::<Result<_, _>>()?;
         let mut stability = Self {
             range,

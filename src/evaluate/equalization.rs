@@ -32,7 +32,7 @@ pub fn wheel_load_changes(case: &Case) -> Option<[f64; 4]> {
             k * (u[i] + y * u[4 + i] - frame)
         });
         let (sum, moment) = (left + right, d_p * (left - right));
-        changes[2 * i] = (sum + moment / a) / 2.0;
+        changes[2 * i] = f64::midpoint(sum, moment / a);
         changes[2 * i + 1] = (sum - moment / a) / 2.0;
     }
     changes.iter().all(|x| x.is_finite()).then_some(changes)

@@ -27,7 +27,7 @@ const KRONROD: [f64; 8] = [
 const GAUSS: [f64; 4] = [
     0.129_484_966_168_869_7,
     0.279_705_391_489_276_64,
-    0.381_830_050_505_118_93,
+    0.381_830_050_505_118_9,
     0.417_959_183_673_469_4,
 ];
 
@@ -180,7 +180,7 @@ mod tests {
     #[test]
     fn what_cannot_be_integrated_is_said() {
         let result = integrate(&[0.0, 1.0], 1, 1e-12, |x, v| {
-            v[0] = (x - 0.3).abs().powf(-0.9)
+            v[0] = (x - 0.3).abs().powf(-0.9);
         });
         assert!(!result.converged);
     }

@@ -250,30 +250,30 @@ fn shape(model: &LateralModel, mode: &Mode, carbody_share: f64, kinematic: bool)
     if kinematic {
         return LateralShape::Kinematic(phase);
     }
-    let candidates: [(fn(Coordinate) -> bool, fn(Phase) -> LateralShape); 5] = [
+    let candidates = [
         (
-            |c| matches!(c, Coordinate::TruckLateral(_)),
-            LateralShape::TruckLateral,
+            share(|c| matches!(c, Coordinate::TruckLateral(_))),
+            LateralShape::TruckLateral(phase),
         ),
         (
-            |c| matches!(c, Coordinate::TruckYaw(_)),
-            LateralShape::TruckYaw,
+            share(|c| matches!(c, Coordinate::TruckYaw(_))),
+            LateralShape::TruckYaw(phase),
         ),
         (
-            |c| matches!(c, Coordinate::TruckRoll(_)),
-            LateralShape::TruckRoll,
+            share(|c| matches!(c, Coordinate::TruckRoll(_))),
+            LateralShape::TruckRoll(phase),
         ),
         (
-            |c| matches!(c, Coordinate::WheelsetLateral(_)),
-            LateralShape::WheelsetLateral,
+            share(|c| matches!(c, Coordinate::WheelsetLateral(_))),
+            LateralShape::WheelsetLateral(phase),
         ),
         (
-            |c| matches!(c, Coordinate::WheelsetYaw(_)),
-            LateralShape::WheelsetYaw,
+            share(|c| matches!(c, Coordinate::WheelsetYaw(_))),
+            LateralShape::WheelsetYaw(phase),
         ),
     ];
     candidates
         .into_iter()
-        .max_by(|a, b| share(a.0).total_cmp(&share(b.0)))
-        .map_or(LateralShape::TruckLateral(phase), |(_, name)| name(phase))
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map_or(LateralShape::TruckLateral(phase), |(_, name)| name)
 }

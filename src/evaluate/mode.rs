@@ -42,8 +42,8 @@ impl Mode {
         let start = DVector::from_fn(n, |i, _| Complex::new(1.0, 0.3 + 0.1 * i as f64));
         let (mut shape, mut left) = (start.clone(), start);
         for _ in 0..STEPS {
-            shape = normalised(lu.solve(&shape)?)?;
-            left = normalised(adjoint.solve(&left)?)?;
+            shape = normalised(&lu.solve(&shape)?)?;
+            left = normalised(&adjoint.solve(&left)?)?;
         }
         Some(Self {
             eigenvalue: s,
@@ -64,7 +64,7 @@ impl Mode {
     }
 }
 
-fn normalised(v: DVector<Complex<f64>>) -> Option<DVector<Complex<f64>>> {
+fn normalised(v: &DVector<Complex<f64>>) -> Option<DVector<Complex<f64>>> {
     let largest = v
         .iter()
         .copied()

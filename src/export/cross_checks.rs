@@ -29,7 +29,7 @@ use crate::{
 
 /// A closed form beside the full model.
 struct CrossCheck {
-    name: &'static str,
+    name: String,
     equation: &'static str,
     quantity: Quantity,
     closed_form: f64,
@@ -51,7 +51,7 @@ pub(super) fn table(sheet: &mut Sheet, case: &Case, evaluation: &Evaluation) {
                 .full_model
                 .map_or(String::new(), |v| significant(c.closed_form / v, 3));
             vec![
-                c.name.into(),
+                c.name.clone(),
                 c.equation.into(),
                 si,
                 us,
@@ -99,8 +99,8 @@ fn hunting(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Evaluation) {
     let conicity = contact.conicity;
     let mode = evaluation.modes.kinematic().map(|m| m.frequency);
     let critical = evaluation.stability.critical_speed();
-    let entry = |name, equation, quantity, closed_form, full_model| CrossCheck {
-        name,
+    let entry = |name: &str, equation, quantity, closed_form, full_model| CrossCheck {
+        name: name.into(),
         equation,
         quantity,
         closed_form,
@@ -184,7 +184,7 @@ fn corrected(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Evaluation) {
         && let Some(speed) = speed_of(baseline)
     {
         list.push(CrossCheck {
-            name: "critical speed, prototype's running gear corrected for mass",
+            name: "critical speed, prototype's running gear corrected for mass".into(),
             equation: "4.6-2",
             quantity: Quantity::Speed,
             closed_form: corrections::for_mass(speed, &baseline, &case.vehicle),
@@ -208,7 +208,7 @@ fn corrected(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Evaluation) {
             with_yaw(case.vehicle, reference),
         ) {
             list.push(CrossCheck {
-                name: "critical speed, corrected for yaw stiffness",
+                name: "critical speed, corrected for yaw stiffness".into(),
                 equation: "4.6-3",
                 quantity: Quantity::Speed,
                 closed_form: corrections::for_yaw_stiffness(own, used, at_reference),
@@ -218,8 +218,15 @@ fn corrected(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Evaluation) {
     }
 }
 
-fn frequencies(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Evaluation) {
-    let v = &case.vehicle;
+/// A motion with its equations, its closed form, and the full model's frequency and damping ratio.
+type Motion = (
+    &'static str,
+    [&'static str; 2],
+    Option<Oscillator>,
+    Option<(f64, f64)>,
+);
+
+fn motions(v: &Vehicle, evaluation: &Evaluation) -> [Motion; 10] {
     let lateral = |shape: fn(&LateralShape) -> bool| {
         evaluation
             .modes
@@ -235,111 +242,98 @@ fn frequencies(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Evaluation)
     let truck_lateral = lateral(|s| matches!(s, LateralShape::TruckLateral(_)));
     let truck_yaw = lateral(|s| matches!(s, LateralShape::TruckYaw(_)));
     let carbody_yaw = lateral(|s| matches!(s, LateralShape::CarbodyYaw));
-    let rows: [(
-        &str,
-        &str,
-        &str,
-        &str,
-        Option<Oscillator>,
-        Option<(f64, f64)>,
-    ); 10] = [
+    [
         (
-            "truck lateral frequency",
-            "3.5-7",
-            "damping ratio",
-            "3.5-8",
+            "truck lateral",
+            ["3.5-7", "3.5-8"],
             Some(natural::truck_lateral(v)),
             truck_lateral,
         ),
         (
-            "truck bounce frequency",
-            "3.5-9",
-            "damping ratio",
-            "3.5-10",
+            "truck bounce",
+            ["3.5-9", "3.5-10"],
             Some(natural::truck_vertical(v)),
             vertical(VerticalShape::TruckHeave),
         ),
         (
-            "truck roll frequency",
-            "3.5-11",
-            "damping ratio",
-            "3.5-12",
+            "truck roll",
+            ["3.5-11", "3.5-12"],
             Some(natural::truck_roll(v)),
             vertical(VerticalShape::TruckRoll),
         ),
         (
-            "truck yaw frequency",
-            "3.5-13",
-            "damping ratio",
-            "3.5-14",
+            "truck yaw",
+            ["3.5-13", "3.5-14"],
             Some(natural::truck_yaw(v)),
             truck_yaw,
         ),
         (
-            "truck pitch frequency",
-            "3.5-15",
-            "damping ratio",
-            "3.5-16",
+            "truck pitch",
+            ["3.5-15", "3.5-16"],
             Some(natural::truck_pitch(v)),
             vertical(VerticalShape::TruckPitch),
         ),
         (
-            "carbody lateral frequency",
-            "3.5-17",
-            "damping ratio",
-            "3.5-18",
+            "carbody lateral",
+            ["3.5-17", "3.5-18"],
             Some(natural::carbody_lateral(v)),
             None,
         ),
         (
-            "carbody heave frequency",
-            "3.5-19",
-            "damping ratio",
-            "3.5-20",
+            "carbody heave",
+            ["3.5-19", "3.5-20"],
             Some(natural::carbody_vertical(v)),
             vertical(VerticalShape::CarbodyHeave),
         ),
         (
-            "carbody roll frequency",
-            "3.5-21",
-            "damping ratio",
-            "3.5-22",
+            "carbody roll",
+            ["3.5-21", "3.5-22"],
             natural::carbody_roll(v),
             None,
         ),
         (
-            "carbody yaw frequency",
-            "3.5-23",
-            "damping ratio",
-            "3.5-24",
+            "carbody yaw",
+            ["3.5-23", "3.5-24"],
             Some(natural::carbody_yaw(v)),
             carbody_yaw,
         ),
         (
-            "carbody pitch frequency",
-            "3.5-25",
-            "damping ratio",
-            "3.5-26",
+            "carbody pitch",
+            ["3.5-25", "3.5-26"],
             Some(natural::carbody_pitch(v)),
             vertical(VerticalShape::CarbodyPitch),
         ),
-    ];
-    for (name, equation, damping_name, damping_equation, closed, full) in rows {
+    ]
+}
+
+fn frequencies(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Evaluation) {
+    for (motion, equations, closed, full) in motions(&case.vehicle, evaluation) {
         let Some(closed) = closed else { continue };
-        list.push(CrossCheck {
-            name,
-            equation,
-            quantity: Quantity::Frequency,
-            closed_form: closed.frequency,
-            full_model: full.map(|f| f.0),
-        });
-        list.push(CrossCheck {
-            name: damping_name,
-            equation: damping_equation,
-            quantity: Quantity::Dimensionless,
-            closed_form: closed.damping_ratio,
-            full_model: full.map(|f| f.1),
-        });
+        let values = [
+            (
+                "frequency",
+                Quantity::Frequency,
+                closed.frequency,
+                full.map(|f| f.0),
+            ),
+            (
+                "damping ratio",
+                Quantity::Dimensionless,
+                closed.damping_ratio,
+                full.map(|f| f.1),
+            ),
+        ];
+        for ((what, quantity, closed_form, full_model), equation) in
+            values.into_iter().zip(equations)
+        {
+            list.push(CrossCheck {
+                name: format!("{motion} {what}"),
+                equation,
+                quantity,
+                closed_form,
+                full_model,
+            });
+        }
     }
 }
 
@@ -364,7 +358,7 @@ fn curves(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Evaluation) {
         ),
     ] {
         list.push(CrossCheck {
-            name,
+            name: name.into(),
             equation,
             quantity: Quantity::DegreeOfCurve,
             closed_form: degree.to_radians(),
@@ -373,8 +367,8 @@ fn curves(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Evaluation) {
     }
     if let Some(flange) = limits.and_then(|l| l.flange) {
         let curvature = curvature_of_degree(flange.degree);
-        let excursion = |name, equation, closed_form| CrossCheck {
-            name,
+        let excursion = |name: &str, equation, closed_form| CrossCheck {
+            name: name.into(),
             equation,
             quantity: Quantity::Stroke,
             closed_form,
@@ -397,7 +391,7 @@ fn curves(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Evaluation) {
                 simple.lateral[0] + free,
             ),
             CrossCheck {
-                name: "flanging force of the simple truck there",
+                name: "flanging force of the simple truck there".into(),
                 equation: "A-19, 4.5-9",
                 quantity: Quantity::Force,
                 closed_form: force,

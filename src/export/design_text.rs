@@ -182,7 +182,12 @@ fn performance(sheet: &mut Sheet, result: &DesignResult) {
     rows.push(line(
         "degree curve",
         "°",
-        &|e| e.curving.as_ref().ok().map(|c| c.degree()),
+        &|e| {
+            e.curving
+                .as_ref()
+                .ok()
+                .map(super::super::evaluate::curving::CurvingLimits::degree)
+        },
         1.0,
     ));
     rows.push(line(
@@ -207,13 +212,21 @@ fn performance(sheet: &mut Sheet, result: &DesignResult) {
         rows.push(line(
             "RMS secondary lateral stroke",
             unit,
-            &|e| e.lateral.as_ref().map(|r| r.average_stroke()),
+            &|e| {
+                e.lateral
+                    .as_ref()
+                    .map(super::super::evaluate::ride::LateralRide::average_stroke)
+            },
             factor,
         ));
         rows.push(line(
             "RMS secondary vertical stroke",
             unit,
-            &|e| e.vertical.as_ref().map(|r| r.average_stroke()),
+            &|e| {
+                e.vertical
+                    .as_ref()
+                    .map(super::super::evaluate::ride::VerticalRide::average_stroke)
+            },
             factor,
         ));
     }
@@ -221,13 +234,21 @@ fn performance(sheet: &mut Sheet, result: &DesignResult) {
         rows.push(line(
             "RMS lateral acceleration",
             unit,
-            &|e| e.lateral.as_ref().map(|r| r.average_acceleration()),
+            &|e| {
+                e.lateral
+                    .as_ref()
+                    .map(super::super::evaluate::ride::LateralRide::average_acceleration)
+            },
             factor,
         ));
         rows.push(line(
             "RMS vertical acceleration",
             unit,
-            &|e| e.vertical.as_ref().map(|r| r.average_acceleration()),
+            &|e| {
+                e.vertical
+                    .as_ref()
+                    .map(super::super::evaluate::ride::VerticalRide::average_acceleration)
+            },
             factor,
         ));
     }

@@ -132,7 +132,7 @@ fn ride(sheet: &mut Sheet, evaluation: &Evaluation) {
     sheet.heading("Lateral ride, RMS");
     match &evaluation.lateral {
         None => {
-            sheet.line("none: unstable at the operating speed, so there is no stationary response")
+            sheet.line("none: unstable at the operating speed, so there is no stationary response");
         }
         Some(ride) => {
             passengers(sheet, &ride.passengers, "W_d");

@@ -3,27 +3,27 @@
 use crate::units::{DisplayUnit, Quantity};
 
 /// `x` with `figures` significant figures; powers of ten only where plain digits get unreadable.
-pub fn significant(x: f64, figures: i32) -> String {
+pub fn significant(x: f64, figures: u8) -> String {
     if x == 0.0 {
         return "0".into();
     }
     if !x.is_finite() {
         return "–".into();
     }
-    // Rounding may carry into the next decade: 9.996 to three figures is 10.0.
-    let rounded: f64 = format!("{x:.*e}", usize::try_from(figures - 1).unwrap_or(0))
-        .parse()
-        .unwrap_or(x);
-    let exponent = rounded.abs().log10().floor() as i32;
+    // The exponent of the rounded number: 9.996 to three figures is 10.0.
+    let scientific = format!("{x:.*e}", usize::from(figures.max(1)) - 1);
+    let (rounded, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
     if !(-4..7).contains(&exponent) {
-        return format!("{rounded:.*e}", usize::try_from(figures - 1).unwrap_or(0));
+        return format!("{rounded}e{exponent}");
     }
-    let decimals = (figures - 1 - exponent).max(0);
-    format!("{rounded:.*}", usize::try_from(decimals).unwrap_or(0))
+    let decimals = usize::try_from(i32::from(figures) - 1 - exponent).unwrap_or(0);
+    let rounded: f64 = scientific.parse().unwrap_or(x);
+    format!("{rounded:.decimals$}")
 }
 
 /// A value in one unit, with its label.
-pub fn in_unit(unit: DisplayUnit, si: f64, figures: i32) -> String {
+pub fn in_unit(unit: DisplayUnit, si: f64, figures: u8) -> String {
     let number = significant(unit.of(si), figures);
     match unit.label {
         "" => number,
@@ -53,7 +53,7 @@ mod tests {
             (9.9996, "10.00"),
             (0.051_23, "0.05123"),
             (205.04, "205.0"),
-            (1_234_567.0, "1234567"),
+            (1_234_567.0, "1235000"),
             (28_239_202.0, "2.824e7"),
             (-0.000_012_34, "-1.234e-5"),
             (0.0, "0"),

@@ -51,6 +51,8 @@ pub struct Coordinates {
     truck_roll: TruckRoll,
 }
 
+// Methods of one shape, although the first coordinates stand in the same place in every form.
+#[allow(clippy::unused_self)]
 impl Coordinates {
     pub(super) fn new(truck_roll: TruckRoll) -> Self {
         Self { truck_roll }
@@ -140,12 +142,12 @@ impl Coordinates {
     }
 
     /// Index of y_a at wheelset `i` in [q, u].
-    pub(super) fn alignment_input(&self, i: usize) -> usize {
+    pub(super) fn alignment_input(self, i: usize) -> usize {
         self.len() + i
     }
 
     /// Index of φ_x at wheelset `i` in [q, u].
-    pub(super) fn roll_input(&self, i: usize) -> usize {
+    pub(super) fn roll_input(self, i: usize) -> usize {
         self.len() + 4 + i
     }
 

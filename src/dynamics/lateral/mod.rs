@@ -88,12 +88,11 @@ impl LateralModel {
         }
         let q = builder.q;
         let roll = 1.0 / (2.0 * case.vehicle.wheelset.half_contact_distance);
-        let excitation =
-            |irregularity, first: fn(&Coordinates, usize) -> usize, scale| Excitation {
-                irregularity,
-                inputs: std::array::from_fn(|i| first(&q, i)),
-                scale,
-            };
+        let excitation = |irregularity, first: fn(Coordinates, usize) -> usize, scale| Excitation {
+            irregularity,
+            inputs: std::array::from_fn(|i| first(q, i)),
+            scale,
+        };
         let forced = ForcedModel {
             excitations: vec![
                 excitation(Irregularity::Alignment, Coordinates::alignment_input, 1.0),
