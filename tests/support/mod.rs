@@ -1,0 +1,61 @@
+//! What several test programs share.
+#![allow(dead_code)]
+
+use bogie::{
+    case::{Case, TruckRoll},
+    spec::{Spec, keys},
+    units::us::{FOOT, LBF, MILE},
+};
+use serde_json::Value;
+
+/// One mile per hour, m/s.
+pub const MPH: f64 = MILE / 3600.0;
+/// One ft-lbf/rad, N m/rad.
+pub const LBF_FT: f64 = LBF * FOOT;
+/// One lbf/ft, N/m.
+pub const LBF_PER_FT: f64 = LBF / FOOT;
+
+/// The vehicles with results from an independent program.
+pub fn reference_cases() -> Vec<(String, Case, Value)> {
+    let cases: Value = serde_json::from_str(include_str!("../data/cases.json")).unwrap();
+    let cases = cases.as_array().unwrap().iter();
+    cases
+        .map(|entry| {
+            let name = entry["name"].as_str().unwrap().to_string();
+            (name, case_of(entry), entry["outputs_si"].clone())
+        })
+        .collect()
+}
+
+fn case_of(entry: &Value) -> Case {
+    let mut case = Case::prototype();
+    case.service.speed = entry["speed_m_per_s"].as_f64().unwrap();
+    for (path, value) in entry["inputs_si"].as_object().unwrap() {
+        if path == "model.truck_roll" {
+            if value == "dynamic" {
+                case.model.truck_roll = TruckRoll::Dynamic;
+            }
+            continue;
+        }
+        let key = keys::case().find(|key| key.path == path).expect(path);
+        (key.set)(&mut case, value.as_f64().unwrap());
+    }
+    case
+}
+
+/// A spec of `problems/`.
+pub fn problem(name: &str) -> Spec {
+    let path = format!("{}/problems/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let source = std::fs::read_to_string(&path).expect(&path);
+    Spec::parse(&source)
+        .unwrap_or_else(|mistakes| panic!("{}", mistakes.render(name, &source, false)))
+}
+
+/// Asserts that a ratio is what it should be within a tolerance.
+pub fn assert_ratio(what: &str, ours: f64, theirs: f64, tolerance: f64) {
+    let ratio = ours / theirs;
+    assert!(
+        (ratio - 1.0).abs() <= tolerance,
+        "{what}: {ours} against {theirs}, ratio {ratio}, tolerance {tolerance}"
+    );
+}
