@@ -1,3 +1,23 @@
 //! Units at the boundary; SI inside.
+//!
+//! A dimensional value is written as a number and a unit expression, in SI or US customary units:
+//!
+//! ```
+//! use bogie::units::Quantity;
+//!
+//! let mass = Quantity::Mass.parse("2500 slug").unwrap();
+//! assert!((mass - 36_485.0).abs() < 1.0); // kg
+//! assert!(Quantity::Mass.parse("2500 lbf").is_err());
+//! ```
 
+mod dimension;
+mod error;
+mod expression;
+mod quantity;
+mod symbol;
 pub mod us;
+
+pub use dimension::Dimension;
+pub use error::UnitError;
+pub use expression::{Measure, Unit};
+pub use quantity::{DisplayUnit, Quantity};
