@@ -1,0 +1,153 @@
+//! Reading the case: vehicle, service, wheel and rail, options.
+
+use std::collections::BTreeMap;
+
+use super::diagnostic::{Collect, Diagnostic};
+use super::document::Document;
+use super::keys::{self, Key, Need, Range};
+use super::value::{choice, number};
+use crate::case::Case;
+use crate::track::Track;
+
+type Mistakes = Vec<Diagnostic>;
+
+/// Reads the case. It starts from the prototype also where the spec has no base: then every
+/// required key replaces it, and the rest of the prototype are the documented defaults.
+pub(super) fn read(
+    document: &Document,
+    tracks: &BTreeMap<String, Track>,
+    mistakes: &mut Mistakes,
+) -> Case {
+    let mut case = Case::prototype();
+    let base = document.get(keys::BASE);
+    if let Some(value) = base {
+        mistakes.collect(choice(value, "base", &["prototype"]));
+    } else {
+        let all = keys::case().filter(|key| !key.path.starts_with(AIR_SPRING));
+        missing(document, all, mistakes);
+    }
+    if keys::AIR_SPRING
+        .iter()
+        .any(|key| document.get(key.path).is_some())
+    {
+        missing(document, keys::AIR_SPRING.iter(), mistakes);
+    }
+
+    document.numbers(
+        keys::case().filter(|key| key.path != CONICITY),
+        &mut case,
+        mistakes,
+    );
+    if let Some(value) = document.get(CONICITY) {
+        // The report's table ends at 0.25; with explicit coefficients nothing is read from it.
+        let explicit = keys::COEFFICIENTS
+            .iter()
+            .all(|key| document.get(key.path).is_some());
+        let key = keys::case().find(|key| key.path == CONICITY);
+        if let Some(key) = key {
+            let range = if explicit { Range::Positive } else { key.range };
+            let read = number(value, key.name(), key.quantity, range);
+            let read = read.map_err(|m| m.help(conicity_help(document)));
+            if let Some(si) = mistakes.collect(read) {
+                (key.set)(&mut case, si);
+            }
+        }
+    }
+    let vehicle = &mut case.vehicle;
+    if document.get("vehicle.wheelset.roll_inertia").is_none() {
+        vehicle.wheelset.roll_inertia = vehicle.wheelset.yaw_inertia;
+    }
+    if document.get("passenger.height_above_carbody_cg").is_none() {
+        vehicle.passenger.height_above_carbody_cg = -vehicle.carbody.height_above_secondary;
+    }
+    if let Some(value) = document.get(keys::TRACK) {
+        let builtin: Vec<String> = Track::names().collect();
+        let names: Vec<&str> = builtin
+            .iter()
+            .chain(tracks.keys())
+            .map(String::as_str)
+            .collect();
+        if let Some(i) = mistakes.collect(choice(value, "track", &names)) {
+            let named = tracks.get(names[i]).cloned();
+            if let Some(track) = named.or_else(|| Track::named(names[i])) {
+                case.service.track = track;
+            }
+        }
+    }
+    for option in keys::OPTIONS {
+        if let Some(value) = document.get(option.path) {
+            let name = option.path.trim_start_matches("model.");
+            if let Some(i) = mistakes.collect(choice(value, name, option.names)) {
+                (option.set)(&mut case.model, i);
+            }
+        }
+    }
+    document.intervals(keys::RANGES, &mut case, mistakes);
+    trucks_apart(document, &case, mistakes);
+    case
+}
+
+const CONICITY: &str = "wheel_rail.conicity";
+const AIR_SPRING: &str = "suspension.secondary.air_spring.";
+
+fn conicity_help(document: &Document) -> Option<String> {
+    let absent: Vec<&str> = keys::COEFFICIENTS
+        .iter()
+        .filter(|key| document.get(key.path).is_none())
+        .map(Key::name)
+        .collect();
+    (!absent.is_empty()).then(|| {
+        format!(
+            "the report's table ends at 0.25; beyond it give all coefficients: {}",
+            absent.join(", ")
+        )
+    })
+}
+
+/// Reports the required keys that the document lacks, one mistake per table.
+fn missing(
+    document: &Document,
+    keys: impl Iterator<Item = &'static Key<Case>>,
+    mistakes: &mut Mistakes,
+) {
+    let mut tables: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for key in keys {
+        if key.need == Need::Required && document.get(key.path).is_none() {
+            let entry = format!("{} ({})", key.name(), key.quantity.with_article());
+            tables.entry(key.table()).or_default().push(entry);
+        }
+    }
+    for (table, absent) in tables {
+        mistakes.push(Diagnostic {
+            span: document.table(table),
+            message: format!("keys are missing in [{table}]"),
+            expected: format!("missing: {}", absent.join(", ")),
+            help: (!table.ends_with("air_spring")).then(|| {
+                "or write base = \"prototype\" in [vehicle] for the values of Table 4.1.1".into()
+            }),
+        });
+    }
+}
+
+/// The inner wheelsets of the two trucks must not meet.
+fn trucks_apart(document: &Document, case: &Case, mistakes: &mut Mistakes) {
+    let (b, l_s) = (
+        case.vehicle.truck.half_wheelbase,
+        case.vehicle.carbody.half_truck_spacing,
+    );
+    let given = [
+        "vehicle.truck.half_wheelbase",
+        "vehicle.carbody.half_truck_spacing",
+    ];
+    let value = given.iter().find_map(|path| document.get(path));
+    if let Some(value) = value.filter(|_| b >= l_s) {
+        mistakes.push(
+            Diagnostic::at(
+                value.span(),
+                format!("the trucks overlap: b = {b:.3} m, l_s = {l_s:.3} m"),
+                "expected `half_wheelbase` below `half_truck_spacing`",
+            )
+            .help("both are half of the distance between axles and between centre pins".to_owned()),
+        );
+    }
+}

@@ -1,0 +1,27 @@
+//! The spec: a TOML file with the vehicle, its use, and what its suspension must reach.
+//!
+//! ```
+//! use bogie::spec::Spec;
+//!
+//! let source = "[vehicle]\nbase = \"prototype\"\n[vehicle.carbody]\nmass = 2500";
+//! let mistakes = Spec::parse(source).unwrap_err();
+//! let text = mistakes.render("light.toml", source, false);
+//! assert!(text.contains("light.toml:4:8") && text.contains("2860 slug"));
+//! ```
+//!
+//! The tables in [`keys`] are the single source of what a spec may contain: they serve reading,
+//! the inputs in results, and documentation.
+
+mod case;
+mod design;
+mod diagnostic;
+mod document;
+pub mod keys;
+mod read;
+mod tracks;
+mod value;
+
+pub use design::{ConicitySpace, DesignSpace, Interval, Limits, Requirements};
+pub use diagnostic::{Diagnostic, Diagnostics};
+pub use keys::inputs_si;
+pub use read::{MAX_BYTES, STARTER, Spec};

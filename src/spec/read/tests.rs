@@ -1,0 +1,274 @@
+use proptest::prelude::*;
+
+use super::*;
+use crate::spec::{ConicitySpace, inputs_si};
+use crate::track::{Spectrum, Track};
+use crate::units::us::{FOOT, LBF, MILE, SLUG};
+
+const BASE: &str = "[vehicle]\nbase = \"prototype\"\n";
+const INTERCITY: &str = include_str!("../../../problems/intercity-130mph.toml");
+
+fn parse(source: &str) -> Spec {
+    Spec::parse(source).unwrap_or_else(|m| panic!("{}", m.render("test", source, false)))
+}
+
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-12 * b.abs()
+}
+
+/// A spec with every value of a case, in the quantities' SI or US display units.
+fn write(values: &[(&str, f64)], us: bool) -> String {
+    let key = |path: &str| keys::case().find(|key| key.path == path).unwrap();
+    let line = |&(path, si): &(&str, f64)| {
+        let quantity = key(path).quantity;
+        let unit = if us { quantity.us() } else { quantity.si() };
+        match unit.label {
+            "" => format!("{path} = {si:?}\n"),
+            label => format!("{path} = \"{} {label}\"\n", unit.of(si)),
+        }
+    };
+    values.iter().map(line).collect()
+}
+
+#[test]
+fn base_alone_is_the_prototype() {
+    let spec = parse(BASE);
+    assert_eq!(spec.case, Case::prototype());
+    assert_eq!(spec.design, DesignSpace::default());
+    assert_eq!(spec.requirements, Requirements::default());
+    assert_eq!(spec.limits, Limits::default());
+}
+
+#[test]
+fn every_key_reads_what_it_writes() {
+    let mut case = Case::prototype();
+    for (i, key) in (1..).zip(keys::case()) {
+        // Different from every other key and within every range.
+        let value = f64::from(i) * 1e-3;
+        assert!(key.range.contains(value), "{}", key.path);
+        (key.set)(&mut case, value);
+        assert_eq!((key.get)(&case), Some(value), "{}", key.path);
+    }
+    let values = inputs_si(&case);
+    assert_eq!(values.len(), keys::case().count());
+    for (i, (path, value)) in (1..).zip(values) {
+        assert!(close(value, f64::from(i) * 1e-3), "{path} shares a field");
+    }
+}
+
+#[test]
+fn paths_are_unique() {
+    let mut paths = keys::paths();
+    let count = paths.len();
+    paths.sort_unstable();
+    paths.dedup();
+    assert_eq!(paths.len(), count);
+}
+
+#[test]
+fn si_and_us_units_give_the_same_case() {
+    let values = inputs_si(&Case::prototype());
+    let complete = [false, true].map(|us| parse(&write(&values, us)).case);
+    for case in &complete {
+        assert_eq!(case.service.track, Track::fra_class(6).unwrap());
+        for ((path, value), (_, expected)) in inputs_si(case).iter().zip(&values) {
+            assert!(close(*value, *expected), "{path}: {value} {expected}");
+        }
+    }
+}
+
+/// The inputs of the reference cases come back as they went in, without a base.
+#[test]
+fn reference_cases_round_trip() {
+    let cases: Vec<serde_json::Value> =
+        serde_json::from_str(include_str!("../../../tests/data/cases.json")).unwrap();
+    for reference in cases {
+        let inputs = reference["inputs_si"].as_object().unwrap();
+        let speed = reference["speed_m_per_s"].as_f64().unwrap();
+        let mut values = vec![("service.speed", speed)];
+        let mut source = String::new();
+        for (path, value) in inputs {
+            match value.as_f64() {
+                Some(si) => values.push((path, si)),
+                None => source.push_str(&format!("{path} = {value}\n")),
+            }
+        }
+        let spec = parse(&(source + &write(&values, false)));
+        let read = inputs_si(&spec.case);
+        for (path, si) in values {
+            let found = read.iter().find(|(p, _)| *p == path).unwrap();
+            assert!(close(found.1, si), "{path}: {} {si}", found.1);
+        }
+        let dynamic = spec.case.model.truck_roll == crate::case::TruckRoll::Dynamic;
+        assert_eq!(dynamic, inputs["model.truck_roll"] == "dynamic");
+    }
+}
+
+#[test]
+fn all_problems_and_the_starter_parse() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/problems");
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "toml")
+        {
+            parse(&std::fs::read_to_string(path).unwrap());
+            count += 1;
+        }
+    }
+    assert_eq!(count, 8);
+    parse(STARTER);
+}
+
+#[test]
+fn example_1_reads_as_printed() {
+    let spec = parse(INTERCITY);
+    let vehicle = &spec.case.vehicle;
+    assert!(close(vehicle.carbody.mass, 2500.0 * SLUG));
+    assert!(close(vehicle.bending_stiffness(), 1.8e6 * LBF * FOOT));
+    assert!(close(spec.case.service.speed, 130.0 * MILE / 3600.0));
+    let bending = spec.design.primary_bending_stiffness.unwrap();
+    assert!(close(bending.lower, 1e5 * LBF * FOOT) && close(bending.upper, 2e7 * LBF * FOOT));
+    assert_eq!(
+        spec.design.conicity,
+        Some(ConicitySpace::Choices(vec![0.05, 0.10, 0.15, 0.25]))
+    );
+    assert!(close(
+        spec.limits.secondary_lateral_stroke.unwrap(),
+        1.5 * 0.0254
+    ));
+}
+
+#[test]
+fn passengers_stay_on_the_floor() {
+    let low = parse(&format!(
+        "{BASE}[vehicle.carbody]\nheight_above_secondary = \"1 m\""
+    ));
+    assert!(close(
+        low.case.vehicle.passenger.height_above_carbody_cg,
+        -1.0
+    ));
+    let given = parse(&format!(
+        "{BASE}[passenger]\nheight_above_carbody_cg = \"0 m\""
+    ));
+    assert!(given.case.vehicle.passenger.height_above_carbody_cg.abs() < 1e-15);
+}
+
+#[test]
+fn longitudinal_bounds_are_bounds_of_the_bending_stiffness() {
+    let source = "[design]\nprimary_longitudinal_stiffness = [\"1 MN/m\", \"2 MN/m\"]\nseed = 7";
+    let spec = parse(&format!(
+        "{BASE}[vehicle.truck]\nhalf_primary_spacing = \"0.5 m\"\n{source}"
+    ));
+    let bending = spec.design.primary_bending_stiffness.unwrap();
+    assert!(close(bending.lower, 0.25e6) && close(bending.upper, 0.5e6));
+    assert_eq!(spec.design.seed, 7);
+}
+
+#[test]
+fn degree_curve_is_kept_in_degrees() {
+    let spec = parse(&format!("{BASE}[requirements]\ndegree_curve = \"25 deg\""));
+    assert!(close(spec.requirements.degree_curve.unwrap(), 25.0));
+}
+
+#[test]
+fn tracks_of_ones_own() {
+    let class_6 = "form = \"fra\"\nvertical_roughness = \"0.00159 in^2 rad/ft\"\n\
+                   alignment_roughness = \"0.00159 in^2 rad/ft\"\n\
+                   crosslevel_corner_wavenumber = \"0.1335 rad/ft\"";
+    let source = format!("{BASE}[service]\ntrack = \"ours\"\n[tracks.ours]\n{class_6}");
+    let track = parse(&source).case.service.track;
+    let published = Track::fra_class(6).unwrap();
+    assert_eq!(track.name, "ours");
+    for omega in [0.01, 0.5, 3.0] {
+        let (ours, theirs) = (
+            track.crosslevel.density(omega),
+            published.crosslevel.density(omega),
+        );
+        assert!(close(ours, theirs));
+        assert!(close(
+            track.vertical.density(omega),
+            published.vertical.density(omega)
+        ));
+    }
+
+    let points = "wavenumber = [\"0.1 rad/m\", \"1 rad/m\"]\n\
+                  density = [\"1e-5 m^2/(rad/m)\", \"1e-7 m^2/(rad/m)\"]\n";
+    let tables =
+        ["vertical", "alignment", "crosslevel"].map(|t| format!("[tracks.ours.{t}]\n{points}"));
+    let source = format!("{BASE}[service]\ntrack = \"ours\"\n{}", tables.concat());
+    let track = parse(&source).case.service.track;
+    assert_eq!(
+        track.alignment,
+        Spectrum::Points(vec![[0.1, 1e-5], [1.0, 1e-7]])
+    );
+}
+
+#[test]
+fn own_coefficients_lift_the_bound_of_the_conicity() {
+    let coefficients = "lateral_creep = \"9 MN\"\nlateral_spin_creep = \"20 kN m\"\n\
+                        spin_creep = \"60 N m^2\"\nlongitudinal_creep = \"10 MN\"\n\
+                        roll_coefficient = 0.1\ncontact_angle = \"5 deg\"\n\
+                        contact_angle_difference = 20\n";
+    let source = format!("{BASE}[wheel_rail]\nconicity = 0.4\n{coefficients}");
+    assert!(close(parse(&source).case.wheel_rail.conicity, 0.4));
+    assert!(Spec::parse(&source.replace("roll_coefficient = 0.1\n", "")).is_err());
+}
+
+#[test]
+fn all_mistakes_are_found_in_the_order_of_lines() {
+    let source = "[limits]\nprimary_lateral_stroke = 1\n[vehicle]\nbase = \"prototype\"\n\
+                  [vehicle.truck]\nmass = \"1 m\"\n[wheel_rail]\nfriction = 2\nfrition = 0.2";
+    let mistakes = Spec::parse(source).unwrap_err();
+    let starts: Vec<usize> = mistakes
+        .iter()
+        .map(|m| m.span.clone().unwrap().start)
+        .collect();
+    assert_eq!(starts.len(), 4);
+    assert!(starts.is_sorted());
+}
+
+#[test]
+fn files_that_are_no_text_are_refused() {
+    let error = Spec::read(b"[vehicle]\nbase = \"\xff\"").unwrap_err();
+    assert!(error.to_string().contains("byte 18, in line 2"), "{error}");
+    let error = Spec::read(&vec![b' '; MAX_BYTES + 1]).unwrap_err();
+    assert!(error.to_string().contains("1048577 bytes"), "{error}");
+}
+
+#[test]
+fn deep_nesting_is_a_mistake() {
+    for deep in [
+        "a.".repeat(100_000) + "a = 1",
+        format!("a = {}", "[".repeat(100_000)),
+    ] {
+        assert!(Spec::read(deep.as_bytes()).is_err());
+    }
+}
+
+proptest! {
+    #[test]
+    fn mutated_specs_never_panic(
+        edits in prop::collection::vec((any::<prop::sample::Index>(), 0..8usize, "\\PC{0,4}"), 1..6),
+        starter in any::<bool>(),
+    ) {
+        let mut text: Vec<char> = if starter { STARTER } else { INTERCITY }.chars().collect();
+        for (place, removed, inserted) in edits {
+            let at = place.index(text.len());
+            let end = (at + removed).min(text.len());
+            text.splice(at..end, inserted.chars());
+        }
+        let source: String = text.into_iter().collect();
+        if let Err(mistakes) = Spec::read(source.as_bytes()) {
+            prop_assert!(mistakes.iter().count() > 0);
+            mistakes.render("mutated.toml", &source, true);
+        }
+    }
+
+    #[test]
+    fn bytes_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        let _ = Spec::read(&bytes);
+    }
+}
