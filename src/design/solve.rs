@@ -51,6 +51,9 @@ pub enum Start<'a> {
     Near(&'a [f64]),
 }
 
+/// Objectives closer than this are the same: the tolerance on constraints times their multipliers.
+const SAME: f64 = 2e-5;
+
 /// Solves a problem.
 ///
 /// # Errors
@@ -94,7 +97,7 @@ pub fn solve(
             .values
             .as_ref()
             .is_ok_and(|v| v.violation() <= FEASIBLE);
-        if feasible && improvement(&solution.point, &point) > 1e-6 {
+        if feasible && improvement(&solution.point, &point) > SAME {
             solution.status = Status::Stalled;
         }
         solution.point = point;
