@@ -10,7 +10,7 @@ use bogie::{
         local::Status,
         problem::Problem,
         solve::{Silent, Start, solve},
-        stability_curving::{Goal, Open, StabilityCurving},
+        stability_curving::{Goal, Limits, Open, StabilityCurving},
     },
     dynamics::LateralModel,
     evaluate::{Evaluation, critical_speed::Stability, curving::CurvingLimits},
@@ -93,7 +93,7 @@ impl Optimum {
             lateral_stiffness: Some([2e4 * LBF_PER_FT, 5e6 * LBF_PER_FT]),
             conicity: None,
         };
-        StabilityCurving::new(&self.case(), goal, open)
+        StabilityCurving::new(&self.case(), goal, Limits::default(), open)
     }
 }
 
@@ -132,7 +132,16 @@ fn table_4_5_1_optimised() {
     for row in published().optimum {
         let what = format!("λ {} {} mph", row.conicity, row.critical_speed_mph);
         let problem = row.problem();
-        let solved = solve(&problem, Start::Everywhere { seed: 1, also: &[] }, &Silent).unwrap();
+        let solved = solve(
+            &problem,
+            Start::Everywhere {
+                seed: 1,
+                also: &[],
+                beat: f64::INFINITY,
+            },
+            &Silent,
+        )
+        .unwrap();
         let case = problem.design(&solved.solution.point.x);
         let (speed, degree_reached) = (critical_speed_mph(&case), degree(&case));
         let reached = speed >= row.critical_speed_mph * (1.0 - 1e-5);
@@ -174,7 +183,16 @@ fn no_grid_point_beats_the_optimum() {
     for row in published().optimum {
         let what = format!("λ {} {} mph", row.conicity, row.critical_speed_mph);
         let problem = row.problem();
-        let solved = solve(&problem, Start::Everywhere { seed: 1, also: &[] }, &Silent).unwrap();
+        let solved = solve(
+            &problem,
+            Start::Everywhere {
+                seed: 1,
+                also: &[],
+                beat: f64::INFINITY,
+            },
+            &Silent,
+        )
+        .unwrap();
         let best = solved.solution.point.values.unwrap();
         let n = 13;
         for i in 0..n {
@@ -356,7 +374,16 @@ fn validation_table() -> String {
     for row in &data.optimum {
         let table = row.case();
         let problem = row.problem();
-        let solved = solve(&problem, Start::Everywhere { seed: 1, also: &[] }, &Silent).unwrap();
+        let solved = solve(
+            &problem,
+            Start::Everywhere {
+                seed: 1,
+                also: &[],
+                beat: f64::INFINITY,
+            },
+            &Silent,
+        )
+        .unwrap();
         let best = problem.design(&solved.solution.point.x);
         let status = match solved.solution.status {
             Status::Optimal => "optimal",

@@ -1,6 +1,6 @@
 //! The log of evaluations: counts them, keeps the best.
 
-use std::sync::Mutex;
+use std::{cmp::Ordering, sync::Mutex};
 
 use rayon::prelude::*;
 
@@ -21,7 +21,8 @@ struct Log {
     count: usize,
     failed: usize,
     failure: Option<Failure>,
-    best: Option<Point>,
+    /// Every design evaluated, in no particular order.
+    points: Vec<Point>,
 }
 
 impl<'a> Evaluations<'a> {
@@ -52,9 +53,7 @@ impl<'a> Evaluations<'a> {
             log.failed += 1;
             log.failure = Some(failure.clone());
         }
-        if log.best.as_ref().is_none_or(|best| point.better_than(best)) {
-            log.best = Some(point.clone());
-        }
+        log.points.push(point.clone());
         point
     }
 
@@ -86,6 +85,53 @@ impl<'a> Evaluations<'a> {
 
     /// The best design so far.
     pub fn best(&self) -> Option<Point> {
-        self.log.lock().expect("no evaluation panics").best.clone()
+        let log = self.log.lock().expect("no evaluation panics");
+        let better = |a: &&Point, b: &&Point| {
+            if a.better_than(b) {
+                Ordering::Less
+            } else {
+                Ordering::Greater
+            }
+        };
+        log.points.iter().min_by(better).cloned()
+    }
+
+    /// The best designs by merit at a `penalty` for violations, no two closer than `apart` in any
+    /// direction, at most `count`.
+    pub fn best_apart(&self, penalty: f64, apart: f64, count: usize) -> Vec<Point> {
+        let log = self.log.lock().expect("no evaluation panics");
+        let mut ranked: Vec<(f64, &Point)> = log
+            .points
+            .iter()
+            .filter(|p| p.values.is_ok())
+            .map(|p| (p.merit(penalty), p))
+            .collect();
+        // Ties by position: the order of evaluation must not matter.
+        ranked.sort_by(|(a, p), (b, q)| {
+            a.total_cmp(b).then_with(|| {
+                let pairs = p.x.iter().zip(&q.x);
+                pairs
+                    .map(|(x, y)| x.total_cmp(y))
+                    .find(|o| o.is_ne())
+                    .unwrap_or(Ordering::Equal)
+            })
+        });
+        let mut chosen: Vec<Point> = Vec::new();
+        for (_, point) in ranked {
+            let near = |other: &Point| {
+                other
+                    .x
+                    .iter()
+                    .zip(&point.x)
+                    .all(|(a, b)| (a - b).abs() < apart)
+            };
+            if !chosen.iter().any(near) {
+                chosen.push(point.clone());
+                if chosen.len() == count {
+                    break;
+                }
+            }
+        }
+        chosen
     }
 }

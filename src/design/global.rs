@@ -1,4 +1,5 @@
-//! Global phase: a particle swarm (argmin) over the whole range of the variables.
+//! Global phase: an even covering and a particle swarm (argmin) over the whole range of the
+//! variables.
 
 use argmin::{
     core::{CostFunction, Error, Executor},
@@ -8,12 +9,19 @@ use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 
 use super::{evaluations::Evaluations, problem::Point};
 
+/// Designs of the first, even covering of the box, per variable.
+const COVERING_PER_VARIABLE: usize = 24;
 /// Particles per variable, and sweeps of the swarm.
 const PARTICLES_PER_VARIABLE: usize = 8;
-const SWEEPS: u64 = 10;
-/// Price of a violation in the swarm's merit: high enough that no feasible design looks worse
-/// than one that misses a requirement by a few per cent.
+const SWEEPS: u64 = 6;
+/// Price of a violation in the merit of swarm and local search.
 pub(super) const PENALTY: f64 = 20.0;
+/// Price by which starts of the local search are ranked: lower, because what is a few per cent
+/// short of a requirement here may still be best once the requirement is met.
+pub(super) const START_PENALTY: f64 = 4.0;
+/// Starts of the local search, and their distance in at least one direction.
+const STARTS: usize = 3;
+const APART: f64 = 0.12;
 
 struct Merit<'a, 'b>(&'a Evaluations<'b>);
 
@@ -27,9 +35,13 @@ impl CostFunction for Merit<'_, '_> {
 }
 
 /// Searches the unit box; the same seed gives the same designs on any number of threads. Returns
-/// the best design met.
-pub(super) fn search(evaluations: &Evaluations, seed: u64) -> Option<Point> {
+/// designs from which to search locally, the most promising first.
+pub(super) fn search(evaluations: &Evaluations, seed: u64) -> Vec<Point> {
     let n = evaluations.dimension();
+    let covering: Vec<Vec<f64>> = (1..=COVERING_PER_VARIABLE * n)
+        .map(|i| halton(i, n))
+        .collect();
+    evaluations.all(&covering);
     let solver = ParticleSwarm::new((vec![0.0; n], vec![1.0; n]), PARTICLES_PER_VARIABLE * n)
         .with_rng_generator(ChaCha8Rng::seed_from_u64(seed));
     // The merit is finite everywhere and the bounds are the box: the swarm has no other way to
@@ -37,5 +49,23 @@ pub(super) fn search(evaluations: &Evaluations, seed: u64) -> Option<Point> {
     let _ = Executor::new(Merit(evaluations), solver)
         .configure(|state| state.max_iters(SWEEPS))
         .run();
-    evaluations.best()
+    evaluations.best_apart(START_PENALTY, APART, STARTS)
+}
+
+/// Point `i` of Halton's low-discrepancy sequence in `n` dimensions (Halton 1960).
+fn halton(i: usize, n: usize) -> Vec<f64> {
+    const PRIMES: [usize; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
+    PRIMES
+        .iter()
+        .take(n)
+        .map(|&base| {
+            let (mut rest, mut digit, mut x) = (i, 1.0, 0.0);
+            while rest > 0 {
+                digit /= base as f64;
+                x += digit * (rest % base) as f64;
+                rest /= base;
+            }
+            x
+        })
+        .collect()
 }

@@ -39,8 +39,8 @@ pub(super) const WIDE: f64 = 0.08;
 pub(super) const NARROW: f64 = 0.01;
 /// The search has converged when the radius is below this, 1e-6 of the ranges.
 const SMALLEST: f64 = 1e-6;
-/// Residual below which a step shorter than that ends the search.
-const SETTLED: f64 = 1e-6;
+/// Residual below which a step shorter than ten times that ends the search.
+const SETTLED: f64 = 1e-5;
 /// Samples are taken at this share of the radius, but never so close that rounding of the
 /// evaluations (1e-10) disturbs curvatures.
 const SAMPLING: f64 = 0.5;
@@ -91,7 +91,7 @@ pub(super) fn search(evaluations: &Evaluations, start: Point, mut radius: f64) -
         if gain > 0.0 {
             centre = trial;
         }
-        if kkt_residual < SETTLED && length < SMALLEST {
+        if kkt_residual < SETTLED && length < 10.0 * SMALLEST {
             break;
         }
         radius = if ratio > 0.75 && length > 0.9 * radius {

@@ -5,8 +5,8 @@
 //! trade-off then alternate until neither changes anything.
 
 use super::{
-    outcome::{DesignResult, Stage, StageResult, unmet},
-    problem::{Failure, Problem},
+    outcome::{Alternative, DesignResult, Stage, StageResult, unmet},
+    problem::{FEASIBLE, Failure, Problem},
     ride::{self, Direction, Ride},
     solve::{Progress, Solved, Start, solve},
     stability_curving::{self, Goal, Open, StabilityCurving},
@@ -21,7 +21,7 @@ use crate::{
 /// Rounds of the coupling loop.
 const ROUNDS: usize = 10;
 /// Change of every scaled variable below which a round changed nothing.
-const UNCHANGED: f64 = 1e-5;
+const UNCHANGED: f64 = 1e-4;
 
 /// Why there is no design.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -127,6 +127,13 @@ struct Procedure<'a> {
     progress: &'a dyn Progress,
 }
 
+/// The profile at hand first: what it reaches tells early which others have no hope.
+fn nearest_first(choices: &[f64], conicity: f64) -> Vec<f64> {
+    let mut sorted = choices.to_vec();
+    sorted.sort_by(|a, b| (a - conicity).abs().total_cmp(&(b - conicity).abs()));
+    sorted
+}
+
 fn bounds_of(interval: Option<Interval>) -> Option<[f64; 2]> {
     interval.map(Into::into)
 }
@@ -184,7 +191,7 @@ impl Procedure<'_> {
             frequency,
         );
         let current = problem.coordinates(case);
-        let solved = self.solve(stage, &problem, &current, round)?;
+        let solved = self.solve(stage, &problem, &current, round, f64::INFINITY)?;
         *case = problem.design(&solved.solution.point.x);
         Ok(StageResult::new(
             stage,
@@ -220,6 +227,10 @@ impl Procedure<'_> {
             lateral_stiffness: bounds_of(self.space.primary_lateral_stiffness),
             conicity: None,
         };
+        let limits = stability_curving::Limits {
+            primary_stroke: self.limits.primary_lateral_stroke,
+            excursion: self.limits.wheelset_excursion,
+        };
         let candidates: Vec<(Case, Open)> = match &self.space.conicity {
             None => vec![(case.clone(), open)],
             Some(ConicitySpace::Interval(range)) => {
@@ -231,21 +242,32 @@ impl Procedure<'_> {
                     },
                 )]
             }
-            Some(ConicitySpace::Choices(choices)) => choices
-                .iter()
-                .filter(|conicity| field.as_ref().is_none_or(|f| f.contains(conicity)))
-                .map(|&conicity| {
-                    let mut case = case.clone();
-                    case.wheel_rail.conicity = conicity;
-                    (case, open)
-                })
-                .collect(),
+            Some(ConicitySpace::Choices(choices)) => {
+                nearest_first(choices, case.wheel_rail.conicity)
+                    .iter()
+                    .filter(|conicity| field.as_ref().is_none_or(|f| f.contains(conicity)))
+                    .map(|&conicity| {
+                        let mut case = case.clone();
+                        case.wheel_rail.conicity = conicity;
+                        (case, open)
+                    })
+                    .collect()
+            }
         };
         let mut best: Option<(StabilityCurving, Solved)> = None;
-        let mut alternatives = Vec::new();
+        let mut alternatives: Vec<Alternative> = Vec::new();
         for (candidate, open) in &candidates {
-            let problem = StabilityCurving::new(candidate, goal, *open);
-            let solved = self.solve(stage, &problem, &problem.coordinates(case), round)?;
+            let problem = StabilityCurving::new(candidate, goal, limits, *open);
+            let solved = {
+                // What the best profile so far has reached within its constraints.
+                let beat =
+                    best.as_ref()
+                        .map_or(f64::INFINITY, |(_, b)| match &b.solution.point.values {
+                            Ok(values) if values.violation() <= FEASIBLE => values.objective(),
+                            _ => f64::INFINITY,
+                        });
+                self.solve(stage, &problem, &problem.coordinates(case), round, beat)?
+            };
             alternatives.push(stability_curving::alternative(&problem, &solved));
             if best
                 .as_ref()
@@ -254,6 +276,7 @@ impl Procedure<'_> {
                 best = Some((problem, solved));
             }
         }
+        alternatives.sort_by(|a, b| a.conicity.total_cmp(&b.conicity));
         let Some((problem, solved)) = best else {
             return Err(DesignError::NothingOpen);
         };
@@ -280,12 +303,14 @@ impl Procedure<'_> {
         problem: &dyn Problem,
         current: &[f64],
         round: usize,
+        beat: f64,
     ) -> Result<Solved, DesignError> {
         let near = [current.to_vec()];
         let start = if round == 0 {
             Start::Everywhere {
                 seed: self.space.seed,
                 also: &near,
+                beat,
             }
         } else {
             Start::Near(current)

@@ -3,14 +3,17 @@
 //! The variables are the carbody's uncoupled natural frequency and damping ratio (4.6-8, 9, 14,
 //! 15), in which the optimum is nearly the same for every carbody.
 
-use super::problem::{Failure, Piece, Problem, Scale, Values, Variable};
+use super::{
+    problem::{Failure, Piece, Problem, Scale, Values, Variable},
+    stability_curving::stable_at_speed,
+};
 use crate::{
     case::Case,
     closed_form::natural_frequencies::{
         primary_vertical_stiffness, secondary_damping, secondary_damping_ratio,
         secondary_frequency, secondary_stiffness,
     },
-    dynamics::{LateralModel, VerticalModel, eigenvalues},
+    dynamics::{LateralModel, VerticalModel},
     evaluate::ride::{LateralRide, VerticalRide},
     units::Quantity,
 };
@@ -210,13 +213,10 @@ impl Problem for Ride {
 
     fn evaluate(&self, x: &[f64]) -> Result<Values, Failure> {
         let case = self.design(x);
-        let numerical = |error: String| Failure::Numerical(error);
         let (acceleration, secondary, primary, excursion, converged) = match self.direction {
             Direction::Lateral => {
                 let model = LateralModel::new(&case);
-                let state = model.forced.system.state_matrix(case.service.speed);
-                let values = eigenvalues(state).map_err(|e| numerical(e.to_string()))?;
-                if values.iter().any(|s| s.re >= 0.0) {
+                if !stable_at_speed(&case, &model)? {
                     return Err(Failure::Unstable);
                 }
                 let ride = LateralRide::new(&model, &case);
@@ -241,7 +241,9 @@ impl Problem for Ride {
             }
         };
         if !converged {
-            return Err(numerical("the random response did not converge".into()));
+            return Err(Failure::Numerical(
+                "the random response did not converge".into(),
+            ));
         }
         let mut constraints = Vec::new();
         let mut limit = |values: &[f64], limit: Option<f64>| {

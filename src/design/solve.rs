@@ -46,11 +46,16 @@ pub enum Start<'a> {
         seed: u64,
         /// Designs worth a look, in scaled coordinates.
         also: &'a [Vec<f64>],
+        /// Objective that another problem has reached: one local search will do where this one
+        /// has no hope to beat it.
+        beat: f64,
     },
     /// Near a design that was optimal for a slightly different vehicle.
     Near(&'a [f64]),
 }
 
+/// What a local search may be hoped to gain; a start further behind the best is left out.
+const PROMISE: f64 = 0.3;
 /// Objectives closer than this are the same: the tolerance on constraints times their multipliers.
 const SAME: f64 = 2e-5;
 
@@ -65,17 +70,27 @@ pub fn solve(
     progress: &dyn Progress,
 ) -> Result<Solved, Failure> {
     let evaluations = Evaluations::new(problem, progress);
-    let (starts, radius): (Vec<Point>, f64) = match start {
-        Start::Near(x) => (vec![evaluations.at(x)], local::NARROW),
-        Start::Everywhere { seed, also } => {
-            let mut starts: Vec<Point> = also.iter().map(|x| evaluations.at(x)).collect();
-            starts.extend(global::search(&evaluations, seed));
-            (starts, local::WIDE)
+    let (starts, radius, beat): (Vec<Point>, f64, f64) = match start {
+        Start::Near(x) => (vec![evaluations.at(x)], local::NARROW, f64::INFINITY),
+        Start::Everywhere { seed, also, beat } => {
+            evaluations.all(also);
+            let starts = global::search(&evaluations, seed);
+            (starts, local::WIDE, beat)
         }
     };
     let mut best: Option<Solution> = None;
     for start in starts {
-        if start.values.is_err() {
+        let Ok(values) = &start.values else { continue };
+        let reach = values.objective() + global::START_PENALTY * values.violation() - PROMISE;
+        let hopeless = |b: &Solution| {
+            let reached = b
+                .point
+                .values
+                .as_ref()
+                .map_or(f64::INFINITY, Values::objective);
+            beat < reach || (b.status != Status::Infeasible && reached < reach)
+        };
+        if best.as_ref().is_some_and(hopeless) {
             continue;
         }
         let solution = local::search(&evaluations, start, radius);

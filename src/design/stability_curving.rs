@@ -3,14 +3,16 @@
 use super::{
     outcome::Alternative,
     problem::{Failure, Piece, Problem, Scale, Values, Variable},
+    ride::PEAK,
     solve::Solved,
 };
 use crate::{
     case::Case,
-    dynamics::LateralModel,
+    dynamics::{LateralModel, eigenvalues},
     evaluate::{
         critical_speed::Stability,
         curving::{CurvingLimits, Limit},
+        ride::LateralRide,
     },
     track::MAX_DEGREE,
     units::Quantity,
@@ -49,21 +51,37 @@ pub struct Open {
     pub conicity: Option<[f64; 2]>,
 }
 
+/// Peak motions at the operating speed that the primary suspension and wheelsets must keep within,
+/// by three standard deviations, m (steps 6–8 of Table 4.6.1).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Limits {
+    /// Primary lateral stroke at any wheelset.
+    pub primary_stroke: Option<f64>,
+    /// Wheelset excursion at any wheelset.
+    pub excursion: Option<f64>,
+}
+
 /// The problem for a case.
 #[derive(Debug, Clone)]
 pub struct StabilityCurving {
     case: Case,
     goal: Goal,
+    limits: Limits,
     open: Open,
     variables: Vec<Variable>,
 }
 
 /// Index of the critical speed's pieces; those of the degree curve are 0–11.
 const CRITICAL_SPEED: usize = 12;
+/// A critical speed this far (ln) below the required one decides without the motions.
+const FAR_OFF: f64 = 0.2;
+/// First index of the primary strokes' pieces, then of the excursions'.
+const PRIMARY_STROKE: usize = 13;
+const EXCURSION: usize = 17;
 
 impl StabilityCurving {
     /// The problem of reaching `goal` with the `open` variables of a case.
-    pub fn new(case: &Case, goal: Goal, open: Open) -> Self {
+    pub fn new(case: &Case, goal: Goal, limits: Limits, open: Open) -> Self {
         let variable = |name, symbol, quantity, bounds: Option<[f64; 2]>, scale| {
             bounds.map(|bounds| Variable {
                 name,
@@ -100,6 +118,7 @@ impl StabilityCurving {
         Self {
             case: case.clone(),
             goal,
+            limits,
             open,
             variables: variables.into_iter().flatten().collect(),
         }
@@ -192,70 +211,107 @@ impl Problem for StabilityCurving {
     }
 
     fn piece_name(&self, index: usize) -> String {
-        Limit::ALL
-            .get(index)
-            .map_or_else(|| "critical speed".into(), ToString::to_string)
+        match index {
+            CRITICAL_SPEED => "critical speed".into(),
+            EXCURSION.. => format!("excursion, wheelset {}", index - EXCURSION + 1),
+            PRIMARY_STROKE.. => format!("primary stroke, wheelset {}", index - PRIMARY_STROKE + 1),
+            _ => Limit::ALL[index].to_string(),
+        }
     }
 
     fn evaluate(&self, x: &[f64]) -> Result<Values, Failure> {
         let case = self.design(x);
-        // −ln of every degree curve and critical speed over what is required of it.
-        let curves = |required: f64| -> Result<Vec<Piece>, Failure> {
-            let limits = CurvingLimits::new(&case, 0.0)
-                .map_err(|error| Failure::Numerical(error.to_string()))?;
-            Ok(limits
-                .pieces
-                .iter()
-                .enumerate()
-                .map(|(i, degree)| {
-                    let degree = degree.unwrap_or(MAX_DEGREE).max(1e-9);
-                    Piece::single(i, -(degree / required).ln())
-                })
-                .collect())
-        };
-        let speeds = |required: f64| -> Result<Vec<Piece>, Failure> {
-            let model = LateralModel::new(&case);
-            let stability = Stability::search(&model, case.model.speed_range)
-                .map_err(|error| Failure::Numerical(error.to_string()))?;
-            let piece = |speed: f64, label: f64| Piece {
-                value: -(speed / required).ln(),
-                index: CRITICAL_SPEED,
-                label,
-            };
-            if stability.unstable_at_start || stability.onsets.is_empty() {
-                let bound = stability.critical_speed().unwrap_or(stability.range[1]);
-                return Ok(vec![piece(bound, f64::NAN)]);
-            }
-            // Onsets far above the lowest cannot matter near this design.
-            let lowest = stability.onsets[0].speed;
-            Ok(stability
-                .onsets
-                .iter()
-                .filter(|onset| onset.speed < 1.5 * lowest)
-                .map(|onset| piece(onset.speed, onset.frequency.ln()))
-                .collect())
-        };
+        let model = LateralModel::new(&case);
         let (mut objective, mut constraints) = (Vec::new(), Vec::new());
         match self.goal {
             Goal::Curving { critical_speed } => {
-                objective = curves(1.0)?;
-                constraints = speeds(critical_speed)?;
+                objective = curves(&case, 1.0)?;
+                constraints = speeds(&case, &model, critical_speed)?;
             }
             Goal::Stability { degree } => {
-                objective = speeds(100.0)?;
-                constraints = curves(degree)?;
+                objective = speeds(&case, &model, 100.0)?;
+                constraints = curves(&case, degree)?;
             }
             Goal::Both {
                 critical_speed,
                 degree,
             } => {
-                objective.extend(curves(degree)?);
-                objective.extend(speeds(critical_speed)?);
+                objective.extend(curves(&case, degree)?);
+                objective.extend(speeds(&case, &model, critical_speed)?);
             }
+        }
+        let far_off = constraints
+            .iter()
+            .any(|c| c.index == CRITICAL_SPEED && c.value > FAR_OFF);
+        if self.limits != Limits::default() && !far_off {
+            constraints.extend(self.motions(&case, &model)?);
         }
         Ok(Values {
             objective,
             constraints,
         })
     }
+}
+
+impl StabilityCurving {
+    /// ln of three standard deviations of the limited motions over their limits.
+    fn motions(&self, case: &Case, model: &LateralModel) -> Result<Vec<Piece>, Failure> {
+        if !stable_at_speed(case, model)? {
+            return Err(Failure::Unstable);
+        }
+        let ride = LateralRide::new(model, case);
+        let pieces = |first: usize, rms: [f64; 4], limit: Option<f64>| {
+            let value = move |i: usize| limit.map(|l| (PEAK * rms[i] / l).ln());
+            (0..4).filter_map(move |i| Some(Piece::single(first + i, value(i)?)))
+        };
+        let strokes = pieces(
+            PRIMARY_STROKE,
+            ride.primary_stroke,
+            self.limits.primary_stroke,
+        );
+        let excursions = pieces(EXCURSION, ride.excursion, self.limits.excursion);
+        Ok(strokes.chain(excursions).collect())
+    }
+}
+
+/// Whether a stationary response exists at the operating speed.
+pub(super) fn stable_at_speed(case: &Case, model: &LateralModel) -> Result<bool, Failure> {
+    let values = eigenvalues(model.forced.system.state_matrix(case.service.speed))
+        .map_err(|error| Failure::Numerical(error.to_string()))?;
+    Ok(values.iter().all(|s| s.re < 0.0))
+}
+
+/// −ln of the degree curve of every limit over what is required, degrees.
+fn curves(case: &Case, required: f64) -> Result<Vec<Piece>, Failure> {
+    let limits =
+        CurvingLimits::new(case, 0.0).map_err(|error| Failure::Numerical(error.to_string()))?;
+    let piece = |(i, degree): (usize, &Option<f64>)| {
+        let degree = degree.unwrap_or(MAX_DEGREE).max(1e-9);
+        Piece::single(i, -(degree / required).ln())
+    };
+    Ok(limits.pieces.iter().enumerate().map(piece).collect())
+}
+
+/// −ln of the speeds at which modes lose their damping over what is required, m/s.
+fn speeds(case: &Case, model: &LateralModel, required: f64) -> Result<Vec<Piece>, Failure> {
+    let stability = Stability::search(model, case.model.speed_range)
+        .map_err(|error| Failure::Numerical(error.to_string()))?;
+    let piece = |speed: f64, label: f64| Piece {
+        value: -(speed / required).ln(),
+        index: CRITICAL_SPEED,
+        label,
+    };
+    if stability.unstable_at_start || stability.onsets.is_empty() {
+        let bound = stability.critical_speed().unwrap_or(stability.range[1]);
+        return Ok(vec![piece(bound, f64::NAN)]);
+    }
+    // Onsets far above the lowest cannot matter near this design.
+    let lowest = stability.onsets[0].speed;
+    let near = stability
+        .onsets
+        .iter()
+        .filter(|onset| onset.speed < 1.5 * lowest);
+    Ok(near
+        .map(|onset| piece(onset.speed, onset.frequency.ln()))
+        .collect())
 }

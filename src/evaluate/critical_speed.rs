@@ -16,7 +16,7 @@ use super::{
 use crate::dynamics::{EigenError, LateralModel, eigenvalues, lateral::Body};
 
 /// Speeds in the search grid.
-const GRID: usize = 22;
+const GRID: usize = 20;
 /// A minimum of damping below this is looked at more closely.
 const SUSPECT_DAMPING: f64 = 0.03;
 /// Evaluations spent on one minimum.
