@@ -1,7 +1,5 @@
 //! Modes of the lateral model at one speed, named by what moves.
 
-use nalgebra::{Complex, DMatrix};
-
 use super::mode::{Mode, damping_ratio, frequency};
 use crate::{
     closed_form::kinematic,
@@ -27,46 +25,32 @@ pub enum LateralShape {
     /// Carbody yaw.
     CarbodyYaw,
     /// The kinematic motion of wheelsets and truck: hunting.
-    Kinematic(Phase),
+    Kinematic,
     /// Mostly lateral motion of the truck frames.
-    TruckLateral(Phase),
+    TruckLateral,
     /// Mostly yaw of the truck frames.
-    TruckYaw(Phase),
+    TruckYaw,
     /// Mostly roll of the truck frames.
-    TruckRoll(Phase),
+    TruckRoll,
     /// Mostly lateral motion of the wheelsets.
-    WheelsetLateral(Phase),
+    WheelsetLateral,
     /// Mostly yaw of the wheelsets.
-    WheelsetYaw(Phase),
-}
-
-/// How the two trucks move together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Phase {
-    /// The same way.
-    InPhase,
-    /// Opposite ways.
-    OutOfPhase,
+    WheelsetYaw,
 }
 
 impl std::fmt::Display for LateralShape {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (name, phase) = match self {
-            Self::LowerSway => return f.write_str("carbody lower sway"),
-            Self::UpperSway => return f.write_str("carbody upper sway"),
-            Self::CarbodyYaw => return f.write_str("carbody yaw"),
-            Self::Kinematic(phase) => ("truck hunting", phase),
-            Self::TruckLateral(phase) => ("truck lateral", phase),
-            Self::TruckYaw(phase) => ("truck yaw", phase),
-            Self::TruckRoll(phase) => ("truck roll", phase),
-            Self::WheelsetLateral(phase) => ("wheelset lateral", phase),
-            Self::WheelsetYaw(phase) => ("wheelset yaw", phase),
-        };
-        let phase = match phase {
-            Phase::InPhase => "in phase",
-            Phase::OutOfPhase => "out of phase",
-        };
-        write!(f, "{name}, {phase}")
+        f.write_str(match self {
+            Self::LowerSway => "carbody lower sway",
+            Self::UpperSway => "carbody upper sway",
+            Self::CarbodyYaw => "carbody yaw",
+            Self::Kinematic => "truck hunting",
+            Self::TruckLateral => "truck lateral",
+            Self::TruckYaw => "truck yaw",
+            Self::TruckRoll => "truck roll",
+            Self::WheelsetLateral => "wheelset lateral",
+            Self::WheelsetYaw => "wheelset yaw",
+        })
     }
 }
 
@@ -112,15 +96,25 @@ impl LateralModes {
             oscillatory: Vec::new(),
             real: Vec::new(),
         };
+        let mut found = Vec::new();
         for s in values {
             if s.im > 0.0 {
-                let mode = LateralMode::new(model, &damping, s, kinematic);
-                modes
-                    .oscillatory
-                    .push(mode.ok_or(EigenError::NotConverged)?);
+                let mode = Mode::at(system, &damping, s).ok_or(EigenError::NotConverged)?;
+                let carbody_share = mode.energy_share(system, |i| {
+                    model.coordinates.coordinate(i).body() == Body::Carbody
+                });
+                found.push((carbody_share, mode));
             } else if s.im == 0.0 {
                 modes.real.push(s.re);
             }
+        }
+        // The carbody has three degrees of freedom. At low speed and conicity the heavy carbody
+        // takes most of the energy in the kinematic modes too: these come after its own.
+        found.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (rank, (carbody_share, mode)) in found.into_iter().enumerate() {
+            let carbody = rank < 3 && carbody_share > 0.5;
+            let mode = LateralMode::new(model, mode, carbody_share, carbody, kinematic);
+            modes.oscillatory.push(mode);
         }
         modes
             .oscillatory
@@ -140,7 +134,7 @@ impl LateralModes {
     pub fn kinematic(&self) -> Option<&LateralMode> {
         self.oscillatory
             .iter()
-            .filter(|m| matches!(m.shape, LateralShape::Kinematic(_)))
+            .filter(|m| m.shape == LateralShape::Kinematic)
             .min_by(|a, b| a.damping_ratio.total_cmp(&b.damping_ratio))
     }
 
@@ -180,100 +174,81 @@ impl KinematicBand {
 impl LateralMode {
     fn new(
         model: &LateralModel,
-        damping: &DMatrix<f64>,
-        s: Complex<f64>,
+        mode: Mode,
+        carbody_share: f64,
+        carbody: bool,
         kinematic: KinematicBand,
-    ) -> Option<Self> {
-        let mode = Mode::at(&model.forced.system, damping, s)?;
-        let of = |body: fn(Body) -> bool| {
-            mode.energy_share(&model.forced.system, |i| {
-                body(model.coordinates.coordinate(i).body())
-            })
+    ) -> Self {
+        let (frequency, damping_ratio) =
+            (frequency(mode.eigenvalue), damping_ratio(mode.eigenvalue));
+        let shape = if carbody {
+            carbody_shape(model, &mode)
+        } else if damping_ratio < OVERDAMPED && kinematic.holds(frequency) {
+            LateralShape::Kinematic
+        } else {
+            truck_shape(model, &mode)
         };
-        let carbody_share = of(|body| body == Body::Carbody);
-        let (frequency, damping_ratio) = (frequency(s), damping_ratio(s));
-        let oscillates = damping_ratio < OVERDAMPED && kinematic.holds(frequency);
-        let shape = shape(model, &mode, carbody_share, oscillates);
-        Some(Self {
+        Self {
             frequency,
             damping_ratio,
             shape,
             carbody_share,
             mode,
-        })
-    }
-
-    /// Whether the carbody carries most of the energy.
-    pub fn is_carbody(&self) -> bool {
-        self.carbody_share > 0.5
+        }
     }
 }
 
-fn shape(model: &LateralModel, mode: &Mode, carbody_share: f64, kinematic: bool) -> LateralShape {
+fn carbody_shape(model: &LateralModel, mode: &Mode) -> LateralShape {
     let q = model.coordinates;
-    let system = &model.forced.system;
-    let share = |of: fn(Coordinate) -> bool| mode.energy_share(system, |i| of(q.coordinate(i)));
-    let amplitude = |of: Coordinate| {
-        (0..q.len())
-            .find(|&i| q.coordinate(i) == of)
-            .map_or(Complex::ZERO, |i| mode.shape[i])
-    };
-    if carbody_share > 0.5 {
-        if share(|c| c == Coordinate::CarbodyYaw) > carbody_share / 2.0 {
-            return LateralShape::CarbodyYaw;
-        }
-        // A point at height z moves by y − zφ: about a point below if y and φ have opposite signs.
-        let turn =
-            amplitude(Coordinate::CarbodyLateral) * amplitude(Coordinate::CarbodyRoll).conj();
-        return if turn.re < 0.0 {
-            LateralShape::LowerSway
-        } else {
-            LateralShape::UpperSway
-        };
+    let index = |of: Coordinate| (0..q.len()).find(|&i| q.coordinate(i) == of).unwrap_or(0);
+    let [y, psi, phi] = [
+        Coordinate::CarbodyLateral,
+        Coordinate::CarbodyYaw,
+        Coordinate::CarbodyRoll,
+    ]
+    .map(index);
+    let share = |i: usize| mode.energy_share(&model.forced.system, |j| i == j);
+    if share(psi) > share(y) + share(phi) {
+        return LateralShape::CarbodyYaw;
     }
-    let mut together = 0.0;
-    for i in 0..q.len() {
-        let partner = match q.coordinate(i) {
-            Coordinate::WheelsetLateral(i) if i < 2 => Coordinate::WheelsetLateral(i + 2),
-            Coordinate::WheelsetYaw(i) if i < 2 => Coordinate::WheelsetYaw(i + 2),
-            Coordinate::TruckLateral(0) => Coordinate::TruckLateral(1),
-            Coordinate::TruckYaw(0) => Coordinate::TruckYaw(1),
-            _ => continue,
-        };
-        together += system.mass[i] * (mode.shape[i] * amplitude(partner).conj()).re;
-    }
-    let phase = if together >= 0.0 {
-        Phase::InPhase
+    // A point at height z moves by y − zφ: about a point below if y and φ have opposite signs.
+    if (mode.shape[y] * mode.shape[phi].conj()).re < 0.0 {
+        LateralShape::LowerSway
     } else {
-        Phase::OutOfPhase
-    };
-    if kinematic {
-        return LateralShape::Kinematic(phase);
+        LateralShape::UpperSway
     }
-    let candidates = [
+}
+
+/// By the coordinates with the most kinetic energy.
+fn truck_shape(model: &LateralModel, mode: &Mode) -> LateralShape {
+    let share = |of: fn(Coordinate) -> bool| {
+        mode.energy_share(&model.forced.system, |i| {
+            of(model.coordinates.coordinate(i))
+        })
+    };
+    [
         (
             share(|c| matches!(c, Coordinate::TruckLateral(_))),
-            LateralShape::TruckLateral(phase),
+            LateralShape::TruckLateral,
         ),
         (
             share(|c| matches!(c, Coordinate::TruckYaw(_))),
-            LateralShape::TruckYaw(phase),
+            LateralShape::TruckYaw,
         ),
         (
             share(|c| matches!(c, Coordinate::TruckRoll(_))),
-            LateralShape::TruckRoll(phase),
+            LateralShape::TruckRoll,
         ),
         (
             share(|c| matches!(c, Coordinate::WheelsetLateral(_))),
-            LateralShape::WheelsetLateral(phase),
+            LateralShape::WheelsetLateral,
         ),
         (
             share(|c| matches!(c, Coordinate::WheelsetYaw(_))),
-            LateralShape::WheelsetYaw(phase),
+            LateralShape::WheelsetYaw,
         ),
-    ];
-    candidates
-        .into_iter()
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map_or(LateralShape::TruckLateral(phase), |(_, name)| name)
+    ]
+    .into_iter()
+    .max_by(|a, b| a.0.total_cmp(&b.0))
+    .map_or(LateralShape::TruckLateral, |(_, shape)| shape)
 }

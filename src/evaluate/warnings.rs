@@ -58,6 +58,16 @@ pub fn warnings(case: &Case, evaluation: &Evaluation) -> Vec<String> {
     {
         list.push("the vertical random response did not reach its accuracy".into());
     }
+    if let Some(ride) = &evaluation.vertical {
+        let largest = ride.wheel_load.iter().copied().fold(0.0, f64::max);
+        if 3.0 * largest > case.vehicle.wheel_load() {
+            list.push(format!(
+                "three standard deviations of wheel load variation are {:.0} % of the static wheel \
+                 load: with massless wheels on rigid rails a stiff primary suspension overstates it",
+                300.0 * largest / case.vehicle.wheel_load()
+            ));
+        }
+    }
     if case.wheel_rail.conicity < 0.02 {
         list.push("at so low a conicity the vehicle hardly centres itself".into());
     }

@@ -227,21 +227,21 @@ type Motion = (
 );
 
 fn motions(v: &Vehicle, evaluation: &Evaluation) -> [Motion; 10] {
-    let lateral = |shape: fn(&LateralShape) -> bool| {
-        evaluation
+    let lateral = |shape: LateralShape| {
+        let mode = evaluation
             .modes
             .oscillatory
             .iter()
-            .find(|m| shape(&m.shape))
-            .map(|m| (m.frequency, m.damping_ratio))
+            .find(|m| m.shape == shape);
+        mode.map(|m| (m.frequency, m.damping_ratio))
     };
     let vertical = |shape: VerticalShape| {
         let mode = evaluation.vertical_modes.iter().find(|m| m.shape == shape);
         mode.map(|m| (m.frequency, m.damping_ratio))
     };
-    let truck_lateral = lateral(|s| matches!(s, LateralShape::TruckLateral(_)));
-    let truck_yaw = lateral(|s| matches!(s, LateralShape::TruckYaw(_)));
-    let carbody_yaw = lateral(|s| matches!(s, LateralShape::CarbodyYaw));
+    let truck_lateral = lateral(LateralShape::TruckLateral);
+    let truck_yaw = lateral(LateralShape::TruckYaw);
+    let carbody_yaw = lateral(LateralShape::CarbodyYaw);
     [
         (
             "truck lateral",

@@ -64,7 +64,7 @@ impl Modes {
                     m.shape.to_string(),
                     significant(m.frequency, 4),
                     significant(m.damping_ratio, 3),
-                    significant(100.0 * m.carbody_share, 2),
+                    percent(m.carbody_share),
                 ]
             })
             .collect();
@@ -129,6 +129,15 @@ impl Modes {
                 "modes": evaluation_json::modes(m),
             })).collect::<Vec<_>>(),
         })
+    }
+}
+
+/// A share in whole per cent.
+fn percent(share: f64) -> String {
+    if share < 0.005 {
+        "< 0.5".into()
+    } else {
+        format!("{:.0}", 100.0 * share)
     }
 }
 
