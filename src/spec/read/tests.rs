@@ -86,14 +86,13 @@ fn reference_cases_round_trip() {
         let inputs = reference["inputs_si"].as_object().unwrap();
         let speed = reference["speed_m_per_s"].as_f64().unwrap();
         let mut values = vec![("service.speed", speed)];
-        let mut source = String::new();
-        for (path, value) in inputs {
-            match value.as_f64() {
-                Some(si) => values.push((path, si)),
-                None => source.push_str(&format!("{path} = {value}\n")),
-            }
-        }
-        let spec = parse(&(source + &write(&values, false)));
+        values.extend(
+            inputs
+                .iter()
+                .filter_map(|(path, v)| Some((path.as_str(), v.as_f64()?))),
+        );
+        let option = format!("model.truck_roll = {}\n", inputs["model.truck_roll"]);
+        let spec = parse(&(option + &write(&values, false)));
         let read = inputs_si(&spec.case);
         for (path, si) in values {
             let found = read.iter().find(|(p, _)| *p == path).unwrap();
