@@ -140,6 +140,34 @@ fn example_1_reads_as_printed() {
     ));
 }
 
+/// The problems are the reference cases of the same design.
+#[test]
+fn problems_have_the_inputs_of_their_reference_cases() {
+    let cases: Vec<serde_json::Value> =
+        serde_json::from_str(include_str!("../../../tests/data/cases.json")).unwrap();
+    for (name, source) in [
+        (
+            "prototype",
+            include_str!("../../../problems/prototype.toml"),
+        ),
+        ("example-1", INTERCITY),
+        (
+            "example-2",
+            include_str!("../../../problems/urban-80mph.toml"),
+        ),
+    ] {
+        let reference = cases.iter().find(|case| case["name"] == name).unwrap();
+        let read = inputs_si(&parse(source).case);
+        for (path, value) in reference["inputs_si"].as_object().unwrap() {
+            if let (Some(si), Some((_, found))) =
+                (value.as_f64(), read.iter().find(|(p, _)| p == path))
+            {
+                assert!(close(*found, si), "{name} {path}: {found} {si}");
+            }
+        }
+    }
+}
+
 #[test]
 fn passengers_stay_on_the_floor() {
     let low = parse(&format!(
