@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 
 use super::diagnostic::{Collect, Diagnostic};
-use super::document::Document;
+use super::document::{Document, Value};
 use super::keys::{self, Key, Need, Range};
 use super::value::{choice, number};
 use crate::case::Case;
 use crate::track::Track;
+use crate::units::Quantity;
+use crate::wheel_rail::CONICITY_MAX;
 
 type Mistakes = Vec<Diagnostic>;
 
@@ -38,20 +40,10 @@ pub(super) fn read(
         &mut case,
         mistakes,
     );
-    if let Some(value) = document.get(CONICITY) {
-        // The report's table ends at 0.25; with explicit coefficients nothing is read from it.
-        let explicit = keys::COEFFICIENTS
-            .iter()
-            .all(|key| document.get(key.path).is_some());
-        let key = keys::case().find(|key| key.path == CONICITY);
-        if let Some(key) = key {
-            let range = if explicit { Range::Positive } else { key.range };
-            let read = number(value, key.name(), key.quantity, range);
-            let read = read.map_err(|m| m.help(conicity_help(document)));
-            if let Some(si) = mistakes.collect(read) {
-                (key.set)(&mut case, si);
-            }
-        }
+    if let Some(value) = document.get(CONICITY)
+        && let Some(conicity) = mistakes.collect(conicity(value, document))
+    {
+        case.wheel_rail.conicity = conicity;
     }
     let vehicle = &mut case.vehicle;
     if document.get("vehicle.wheelset.roll_inertia").is_none() {
@@ -90,17 +82,23 @@ pub(super) fn read(
 const CONICITY: &str = "wheel_rail.conicity";
 const AIR_SPRING: &str = "suspension.secondary.air_spring.";
 
-fn conicity_help(document: &Document) -> Option<String> {
+/// λ: the report's table ends at 0.25, but with explicit coefficients nothing is read from it.
+fn conicity(value: &Value, document: &Document) -> Result<f64, Diagnostic> {
+    let read = |range| number(value, "conicity", Quantity::Dimensionless, range);
+    let conicity = read(Range::Positive)?;
     let absent: Vec<&str> = keys::COEFFICIENTS
         .iter()
         .filter(|key| document.get(key.path).is_none())
         .map(Key::name)
         .collect();
-    (!absent.is_empty()).then(|| {
-        format!(
-            "the report's table ends at 0.25; beyond it give all coefficients: {}",
+    if absent.is_empty() {
+        return Ok(conicity);
+    }
+    read(Range::PositiveUpTo(CONICITY_MAX)).map_err(|mistake| {
+        mistake.help(format!(
+            "the report's table ends there; beyond it give all coefficients: {}",
             absent.join(", ")
-        )
+        ))
     })
 }
 
@@ -117,14 +115,20 @@ fn missing(
             tables.entry(key.table()).or_default().push(entry);
         }
     }
+    let base = "write base = \"prototype\" in [vehicle] to take what is missing from Table 4.1.1";
+    // Once is enough: the rest of the tables say what they lack.
+    let mut help = document.get(keys::BASE).is_none().then(|| base.to_owned());
     for (table, absent) in tables {
+        let span = document.table(table);
+        let message = match span {
+            Some(_) => format!("[{table}] is incomplete"),
+            None => format!("there is no [{table}]"),
+        };
         mistakes.push(Diagnostic {
-            span: document.table(table),
-            message: format!("keys are missing in [{table}]"),
+            span,
+            message,
             expected: format!("missing: {}", absent.join(", ")),
-            help: (!table.ends_with("air_spring")).then(|| {
-                "or write base = \"prototype\" in [vehicle] for the values of Table 4.1.1".into()
-            }),
+            help: help.take(),
         });
     }
 }

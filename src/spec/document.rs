@@ -31,12 +31,9 @@ impl<'a> Document<'a> {
         self.entries.get(path).copied()
     }
 
-    /// Where the name of the table `path` stands, or else that of the nearest table around it.
+    /// Where the name of the table `path` stands.
     pub fn table(&self, path: &str) -> Option<Range<usize>> {
-        match self.tables.get(path) {
-            Some(span) => Some(span.clone()),
-            None => self.table(path.rsplit_once('.')?.0),
-        }
+        self.tables.get(path).cloned()
     }
 
     fn collect(

@@ -38,9 +38,12 @@ impl Spec {
             .iter()
             .map(|error| Diagnostic {
                 span: error.span(),
-                message: "this is not TOML".into(),
-                expected: error.message().into(),
-                help: None,
+                message: error.message().into(),
+                expected: "no valid TOML from here on".into(),
+                help: error
+                    .message()
+                    .contains("quoted")
+                    .then(|| "a value with its unit stands in quotes: mass = \"2500 slug\"".into()),
             })
             .collect();
         if !mistakes.is_empty() {

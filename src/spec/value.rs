@@ -33,7 +33,7 @@ pub(super) fn number(value: &Value, name: &str, quantity: Quantity, range: Range
         let bounds = range.in_words(quantity);
         return Err(Diagnostic::at(
             value.span(),
-            format!("`{name}` is not physical"),
+            format!("`{name}` is out of range"),
             format!("expected {} {bounds}", quantity.with_article()),
         ));
     }
@@ -57,17 +57,15 @@ pub(super) fn interval(
     quantity: Quantity,
     range: Range,
 ) -> Read<Interval> {
-    let example = if quantity == Quantity::Dimensionless {
-        "[0.05, 0.25]".to_owned()
-    } else {
-        let unit = quantity.us().label;
-        format!("[\"1 {unit}\", \"2 {unit}\"]")
+    let example = match quantity {
+        Quantity::Dimensionless => "0.05".to_owned(),
+        _ => format!("\"{}\"", quantity.examples()[1]),
     };
     let mistake = |message: &str| {
         Diagnostic::at(
             value.span(),
             format!("`{name}` {message}"),
-            format!("expected [lowest, highest], such as {example}"),
+            format!("expected [lowest, highest], each such as {example}"),
         )
     };
     let DeValue::Array(array) = value.get_ref() else {

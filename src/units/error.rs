@@ -55,6 +55,10 @@ impl UnitError {
             Self::Syntax(_) => {
                 Some("write units like `lbf s/ft`, `kg m^2` or `m^2/(rad/m)`".into())
             }
+            Self::Dimension {
+                expected: Quantity::Wavenumber | Quantity::SpectralDensity | Quantity::Roughness,
+                ..
+            } => Some("wavenumbers are in radians: 1 cycle/m is 6.2832 rad/m".into()),
             _ => None,
         }
     }

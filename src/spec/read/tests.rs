@@ -86,14 +86,13 @@ fn reference_cases_round_trip() {
         let inputs = reference["inputs_si"].as_object().unwrap();
         let speed = reference["speed_m_per_s"].as_f64().unwrap();
         let mut values = vec![("service.speed", speed)];
-        let mut source = String::new();
-        for (path, value) in inputs {
-            match value.as_f64() {
-                Some(si) => values.push((path, si)),
-                None => source.push_str(&format!("{path} = {value}\n")),
-            }
-        }
-        let spec = parse(&(source + &write(&values, false)));
+        values.extend(
+            inputs
+                .iter()
+                .filter_map(|(path, v)| Some((path.as_str(), v.as_f64()?))),
+        );
+        let option = format!("model.truck_roll = {}\n", inputs["model.truck_roll"]);
+        let spec = parse(&(option + &write(&values, false)));
         let read = inputs_si(&spec.case);
         for (path, si) in values {
             let found = read.iter().find(|(p, _)| *p == path).unwrap();
@@ -139,6 +138,34 @@ fn example_1_reads_as_printed() {
         spec.limits.secondary_lateral_stroke.unwrap(),
         1.5 * 0.0254
     ));
+}
+
+/// The problems are the reference cases of the same design.
+#[test]
+fn problems_have_the_inputs_of_their_reference_cases() {
+    let cases: Vec<serde_json::Value> =
+        serde_json::from_str(include_str!("../../../tests/data/cases.json")).unwrap();
+    for (name, source) in [
+        (
+            "prototype",
+            include_str!("../../../problems/prototype.toml"),
+        ),
+        ("example-1", INTERCITY),
+        (
+            "example-2",
+            include_str!("../../../problems/urban-80mph.toml"),
+        ),
+    ] {
+        let reference = cases.iter().find(|case| case["name"] == name).unwrap();
+        let read = inputs_si(&parse(source).case);
+        for (path, value) in reference["inputs_si"].as_object().unwrap() {
+            if let (Some(si), Some((_, found))) =
+                (value.as_f64(), read.iter().find(|(p, _)| p == path))
+            {
+                assert!(close(*found, si), "{name} {path}: {found} {si}");
+            }
+        }
+    }
 }
 
 #[test]

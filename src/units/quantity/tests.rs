@@ -66,116 +66,32 @@ fn values_as_engineers_write_them() {
     }
 }
 
+#[rustfmt::skip]
 #[test]
 fn what_is_wrong_is_said() {
     use Quantity as Q;
     for (quantity, text, message, help) in [
         (Q::Mass, "2500", "`2500` has no unit", None),
         (Q::Mass, "", "no number at the beginning of ``", None),
-        (
-            Q::Mass,
-            "heavy",
-            "no number at the beginning of `heavy`",
-            None,
-        ),
-        (
-            Q::Mass,
-            "nan kg",
-            "no number at the beginning of `nan kg`",
-            None,
-        ),
-        (
-            Q::Mass,
-            "1e999 kg",
-            "`1e999 kg` is not a finite number",
-            None,
-        ),
+        (Q::Mass, "heavy", "no number at the beginning of `heavy`", None),
+        (Q::Mass, "nan kg", "no number at the beginning of `nan kg`", None),
+        (Q::Mass, "1e999 kg", "`1e999 kg` is not a finite number", None),
         (Q::Mass, "1e308 t", "`1e308 t` is not a finite number", None),
-        (
-            Q::Mass,
-            "2500 lb",
-            "`lb` may be a force or a mass",
-            Some("write `lbf` for a force, `lbm` or `slug` for a mass"),
-        ),
-        (
-            Q::Mass,
-            "2500 slgu",
-            "unknown unit `slgu`",
-            Some("did you mean `slug`?"),
-        ),
-        (
-            Q::Mass,
-            "2500 KG",
-            "unknown unit `KG`",
-            Some("did you mean `kg`?"),
-        ),
-        (
-            Q::Speed,
-            "130 kph",
-            "unknown unit `kph`",
-            Some("did you mean `km/h`?"),
-        ),
+        (Q::Mass, "2500 lb", "`lb` may be a force or a mass", Some("write `lbf` for a force, `lbm` or `slug` for a mass")),
+        (Q::Mass, "2500 slgu", "unknown unit `slgu`", Some("did you mean `slug`?")),
+        (Q::Mass, "2500 KG", "unknown unit `KG`", Some("did you mean `kg`?")),
+        (Q::Speed, "130 kph", "unknown unit `kph`", Some("did you mean `km/h`?")),
         (Q::Length, "3 blorks", "unknown unit `blorks`", None),
-        (
-            Q::Mass,
-            "2500 lbf",
-            "`lbf` is the unit of a force, not a mass",
-            None,
-        ),
-        (
-            Q::Torque,
-            "7500 lbf ft/rad",
-            "`lbf ft/rad` is the unit of a rotational stiffness, not a torque",
-            None,
-        ),
-        (
-            Q::Length,
-            "3 m rad",
-            "`m rad` is the unit of a roughness constant, not a length",
-            None,
-        ),
-        (
-            Q::Frequency,
-            "44 rad/s",
-            "`rad/s` is s^-1 rad in base units, not a frequency",
-            None,
-        ),
-        (
-            Q::Wavenumber,
-            "0.1 1/m",
-            "`1/m` is m^-1 in base units, not a wavenumber",
-            None,
-        ),
-        (
-            Q::Mass,
-            "2,500 kg",
-            "cannot read the unit from `,500 kg` on",
-            Some("write the number without thousands separators"),
-        ),
-        (
-            Q::Damping,
-            "3 N s/",
-            "cannot read the unit from `the end` on",
-            Some("write units like `lbf s/ft`, `kg m^2` or `m^2/(rad/m)`"),
-        ),
-        (
-            Q::Damping,
-            "3 N s/(m",
-            "cannot read the unit from `the end` on",
-            Some("write units like `lbf s/ft`, `kg m^2` or `m^2/(rad/m)`"),
-        ),
-        (
-            Q::Damping,
-            "3 N^22",
-            "cannot read the unit from `^22` on",
-            Some("write units like `lbf s/ft`, `kg m^2` or `m^2/(rad/m)`"),
-        ),
-        (
-            Q::Dimensionless,
-            "0.05",
-            "a dimensionless value is a plain number, without quotes",
-            None,
-        ),
+        (Q::Mass, "2500 lbf", "`lbf` is the unit of a force, not a mass", None),
+        (Q::Torque, "7500 lbf ft/rad", "`lbf ft/rad` is the unit of a rotational stiffness, not a torque", None),
+        (Q::Length, "3 m rad", "`m rad` is the unit of a roughness constant, not a length", None),
+        (Q::Frequency, "44 rad/s", "`rad/s` is s^-1 rad in base units, not a frequency", None),
+        (Q::Wavenumber, "0.1 1/m", "`1/m` is m^-1 in base units, not a wavenumber", Some("wavenumbers are in radians: 1 cycle/m is 6.2832 rad/m")),
+        (Q::Mass, "2,500 kg", "cannot read the unit from `,500 kg` on", Some("write the number without thousands separators")),
+        (Q::Damping, "3 N s/", "cannot read the unit from `the end` on", Some("write units like `lbf s/ft`, `kg m^2` or `m^2/(rad/m)`")),
+        (Q::Damping, "3 N s/(m", "cannot read the unit from `the end` on", Some("write units like `lbf s/ft`, `kg m^2` or `m^2/(rad/m)`")),
+        (Q::Damping, "3 N^22", "cannot read the unit from `^22` on", Some("write units like `lbf s/ft`, `kg m^2` or `m^2/(rad/m)`")),
+        (Q::Dimensionless, "0.05", "a dimensionless value is a plain number, without quotes", None),
     ] {
         let error = quantity.parse(text).unwrap_err();
         assert_eq!(error.to_string(), message, "{text}");
