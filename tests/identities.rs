@@ -3,6 +3,7 @@
 mod support;
 
 use approx::assert_relative_eq;
+use bogie::vehicle::AirSpring;
 use bogie::{
     case::{Case, Crosslevel, CurvingCreep, TruckRoll},
     closed_form::{
@@ -289,7 +290,60 @@ fn breakaway_at_its_limits() {
     assert!(torques.is_sorted_by(|a, b| a >= b), "{torques:?}");
 }
 
-/// Reversing time at a crossing: just below the critical speed nothing grows, just above something
+/// An air spring whose series spring is far stiffer than everything is the direct spring with the
+/// orifice as its damper; one without orifice flow is both springs in parallel.
+#[test]
+fn air_spring_limits() {
+    let conventional = problem("intercity-130mph").case;
+    let secondary = conventional.vehicle.suspension.secondary;
+    let (k, c) = (secondary.vertical_stiffness, secondary.vertical_damping);
+    let with = |air_spring: AirSpring| {
+        let mut case = conventional.clone();
+        case.vehicle.suspension.secondary.air_spring = Some(air_spring);
+        Evaluation::new(&case).unwrap()
+    };
+    let plain = Evaluation::new(&conventional).unwrap();
+    let damper = with(AirSpring {
+        direct_stiffness: k,
+        series_stiffness: 1e5 * k,
+        orifice_damping: c,
+        reservoir_stiffness: 0.0,
+    });
+    let [a, b] = [&damper, &plain].map(|e| e.vertical.as_ref().unwrap());
+    assert_ratio(
+        "damper",
+        a.average_acceleration(),
+        b.average_acceleration(),
+        1e-4,
+    );
+    assert_ratio("damper", a.average_stroke(), b.average_stroke(), 1e-4);
+
+    // Hardly damped, so the carbody's frequencies are those of its springs.
+    let blocked = with(AirSpring {
+        direct_stiffness: 0.25 * k,
+        series_stiffness: 0.75 * k,
+        orifice_damping: 1e5 * c,
+        reservoir_stiffness: 0.0,
+    });
+    let heave = |e: &Evaluation| {
+        let shape = VerticalShape::CarbodyHeave;
+        e.vertical_modes
+            .iter()
+            .find(|m| m.shape == shape)
+            .unwrap()
+            .frequency
+    };
+    let mut undamped = conventional.clone();
+    undamped.vehicle.suspension.secondary.vertical_damping = 0.0;
+    assert_ratio(
+        "blocked",
+        heave(&blocked),
+        heave(&Evaluation::new(&undamped).unwrap()),
+        1e-4,
+    );
+}
+
+/// Just below the critical speed nothing grows, just above something
 /// does.
 #[test]
 fn critical_speed_is_a_change_of_stability() {
