@@ -223,7 +223,10 @@ fn a_wrong_spec_exits_with_2_and_writes_nothing() {
     assert_eq!(run.status.code(), Some(2));
     assert!(run.stdout.is_empty() && !out.exists());
     let stderr = String::from_utf8(run.stderr).unwrap();
-    assert!(stderr.contains("4") && stderr.contains("mass"), "{stderr}");
+    assert!(
+        stderr.contains("4:1") && stderr.contains("`mass`"),
+        "{stderr}"
+    );
 }
 
 #[test]

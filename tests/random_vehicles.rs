@@ -98,7 +98,7 @@ fn critical_speed_is_what_a_dense_scan_finds() {
             }
             // An instability narrower than the scan's steps may be seen by the search alone.
             (None, Some(critical)) => {
-                assert!(growing(critical * 1.0001), "vehicle {i}: {critical}")
+                assert!(growing(critical * 1.0001), "vehicle {i}: {critical}");
             }
             (Some(first), None) => panic!("vehicle {i}: the scan sees {first}, the search nothing"),
         }

@@ -1,6 +1,9 @@
 //! Modes of the vertical model, named by what moves; they do not depend on the speed.
 
-use super::mode::{Mode, damping_ratio, frequency};
+use super::{
+    lateral_modes::OVERDAMPED,
+    mode::{Mode, damping_ratio, frequency},
+};
 use crate::dynamics::{EigenError, VerticalModel, eigenvalues, vertical::Coordinate};
 
 /// What a mode of the vertical model does.
@@ -80,7 +83,7 @@ pub struct VerticalMode {
     pub shape: VerticalShape,
 }
 
-/// Oscillatory modes of the vertical model, ascending in frequency.
+/// Oscillatory modes of the vertical model, ascending in frequency; overdamped ones left out.
 ///
 /// # Errors
 ///
@@ -91,7 +94,9 @@ pub fn vertical_modes(model: &VerticalModel) -> Result<Vec<VerticalMode>, EigenE
     let damping = system.damping_at(1.0);
     let mut modes = Vec::new();
     for s in eigenvalues(system.state_matrix(1.0))? {
-        if s.im <= 0.0 {
+        // Relaxation of the air springs' inner points comes out as real roots or, by rounding, as
+        // pairs that are as good as real.
+        if s.im <= 0.0 || damping_ratio(s) > OVERDAMPED {
             continue;
         }
         let mode = Mode::at(system, &damping, s).ok_or(EigenError::NotConverged)?;

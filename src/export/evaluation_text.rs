@@ -150,7 +150,9 @@ fn ride(sheet: &mut Sheet, evaluation: &Evaluation) {
     }
     sheet.heading("Vertical ride, RMS");
     match &evaluation.vertical {
-        None => sheet.line("none: the vehicle does not stand on its springs"),
+        None => sheet.line(
+            "none: the vehicle has a motion without damping, so there is no stationary response",
+        ),
         Some(ride) => {
             passengers(sheet, &ride.passengers, "W_k");
             let rows = [
