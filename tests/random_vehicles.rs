@@ -3,8 +3,9 @@
 
 use bogie::{
     case::{Case, Crosslevel, TruckRoll},
-    dynamics::{LateralModel, eigenvalues},
-    evaluate::{Evaluation, critical_speed::Stability},
+    comfort::third_octave,
+    dynamics::{LateralModel, VerticalModel, eigenvalues},
+    evaluate::{Evaluation, critical_speed::Stability, integration::integrate, response::Response},
     spec::keys,
 };
 use rand::{Rng, SeedableRng};
@@ -104,4 +105,37 @@ fn critical_speed_is_what_a_dense_scan_finds() {
         }
     }
     assert!(compared > 40, "{compared}");
+}
+
+/// Refining the frequency grid changes no mean square by more than the 1e-6 that is promised.
+#[test]
+fn refinement_changes_nothing() {
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    let mut compared = 0;
+    while compared < 30 {
+        let case = random(&mut rng, 2.0);
+        let lateral = LateralModel::new(&case);
+        let state = lateral.forced.system.state_matrix(case.service.speed);
+        if eigenvalues(state).unwrap().iter().any(|s| s.re >= 0.0) {
+            continue;
+        }
+        for model in [lateral.forced, VerticalModel::new(&case).forced] {
+            let outputs = model.outputs.len();
+            let edges = third_octave::edges_between(0.02, 50.0);
+            let [coarse, fine] = [1e-6, 1e-12].map(|tolerance| {
+                let mut response = Response::new(&model, &case.service.track, case.service.speed);
+                integrate(&edges, outputs, tolerance, |f, v| response.densities(f, v))
+            });
+            assert!(coarse.converged && fine.converged);
+            for k in 0..outputs {
+                let ratio = coarse.total(k) / fine.total(k);
+                assert!(
+                    (ratio - 1.0).abs() < 1e-6,
+                    "output {k} at {} m/s: {ratio}",
+                    case.service.speed
+                );
+            }
+        }
+        compared += 1;
+    }
 }

@@ -27,7 +27,7 @@ pub enum Command {
     /// Compute power spectra of accelerations and strokes
     Psd(Psd),
     /// Check a spec and do nothing else
-    Check(Source),
+    Check(Check),
     /// Write a commented spec to start from
     Init(Init),
 }
@@ -109,6 +109,17 @@ pub struct Psd {
     /// Write CSV, one row per frequency
     #[arg(long, conflicts_with = "format")]
     pub csv: bool,
+}
+
+/// Options of `check`.
+#[derive(Debug, Args)]
+pub struct Check {
+    #[command(flatten)]
+    pub source: Source,
+
+    /// Form of the answer
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
 }
 
 /// Options of `init`.

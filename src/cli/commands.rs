@@ -10,11 +10,11 @@ use bogie::{
     track::{MAX_DEGREE, SUPERELEVATION_BASE},
     units::Quantity,
 };
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::{
     Done, Failure,
-    arguments::{Curve, Format, Init, Modes, Psd, Run, Source},
+    arguments::{Check, Curve, Format, Init, Modes, Psd, Run},
     input, output,
     progress::Line,
 };
@@ -130,9 +130,12 @@ pub fn psd(call: &Psd) -> Result<Done, Failure> {
     Ok(Done::Complete)
 }
 
-pub fn check(source: &Source) -> Result<Done, Failure> {
-    let input::Named { name, .. } = input::read(&source.spec)?;
-    output::print(&format!("{name}: the spec is in order"))?;
+pub fn check(call: &Check) -> Result<Done, Failure> {
+    let input::Named { name, .. } = input::read(&call.source.spec)?;
+    output::print(&match call.format {
+        Format::Text => format!("{name}: the spec is in order"),
+        Format::Json => json!({ "name": name, "valid": true }).to_string(),
+    })?;
     Ok(Done::Complete)
 }
 

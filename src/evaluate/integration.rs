@@ -93,11 +93,12 @@ pub fn integrate(
         for k in 0..functions {
             let difference = (kronrod[k] - gauss[k]).abs();
             // The difference is the 7-point rule's error; the 15-point rule's is of a far higher
-            // order. QUADPACK takes its power 1.5, with a factor that makes it exceed the
-            // difference itself down to 1e-7; without it the estimate is still a bound by many
-            // orders on the spectra here.
+            // order once the panel resolves the function. QUADPACK takes power 1.5 with a factor
+            // of 2828, which leaves the difference itself as the estimate down to 1e-7; with 10 it
+            // does so down to 1 %, still a bound by orders of magnitude on the spectra here.
             let scale = kronrod[k].abs().max(f64::MIN_POSITIVE);
-            error.push(scale * (difference / scale).powf(1.5).min(1.0));
+            let relative = difference / scale;
+            error.push(scale * relative.min(10.0 * relative.powf(1.5)));
             integral.push(kronrod[k]);
         }
     };

@@ -165,39 +165,65 @@ fn bands(points: &[PassengerRide; 3]) -> Bands {
     }
 }
 
+/// What both directions have in common; `weightings` are those of ISO 2631-1 and EN 12299.
+fn passengers(
+    ride: &[PassengerRide; 3],
+    average: f64,
+    weightings: [&str; 2],
+) -> Map<String, Value> {
+    let [iso, en] = weightings;
+    let mut object = Map::new();
+    let mut insert = |key: String, value: Value| object.insert(key, value);
+    insert(
+        "acceleration_rms_m_per_s2".into(),
+        json!(points(ride, |p| p.acceleration)),
+    );
+    insert("acceleration_average_m_per_s2".into(), json!(average));
+    insert(
+        format!("iso_2631_1_{iso}_rms_m_per_s2"),
+        json!(points(ride, |p| p.iso_weighted)),
+    );
+    insert(
+        format!("en_12299_{en}_rms_m_per_s2"),
+        json!(points(ride, |p| p.en_weighted)),
+    );
+    insert("sperling_wz".into(), json!(points(ride, |p| p.w_z)));
+    insert("third_octave_bands".into(), json!(bands(ride)));
+    object
+}
+
 fn lateral(ride: &LateralRide) -> Value {
-    json!({
-        "acceleration_rms_m_per_s2": points(&ride.passengers, |p| p.acceleration),
-        "acceleration_average_m_per_s2": ride.average_acceleration(),
-        "secondary_stroke_rms_m": ride.secondary_stroke,
-        "secondary_stroke_average_m": ride.average_stroke(),
-        "primary_stroke_rms_m": ride.primary_stroke,
-        "primary_longitudinal_stroke_rms_m": ride.longitudinal_stroke,
-        "wheelset_excursion_rms_m": ride.excursion,
-        "roll_acceleration_rms_rad_per_s2": ride.roll_acceleration,
-        "iso_2631_1_wd_rms_m_per_s2": points(&ride.passengers, |p| p.iso_weighted),
-        "en_12299_wd_rms_m_per_s2": points(&ride.passengers, |p| p.en_weighted),
-        "sperling_wz": points(&ride.passengers, |p| p.w_z),
-        "third_octave_bands": bands(&ride.passengers),
-        "converged": ride.converged,
-    })
+    let mut object = passengers(&ride.passengers, ride.average_acceleration(), ["wd", "wd"]);
+    let mut insert = |key: &str, value: Value| object.insert(key.into(), value);
+    insert("secondary_stroke_rms_m", json!(ride.secondary_stroke));
+    insert("secondary_stroke_average_m", json!(ride.average_stroke()));
+    insert("primary_stroke_rms_m", json!(ride.primary_stroke));
+    insert(
+        "primary_longitudinal_stroke_rms_m",
+        json!(ride.longitudinal_stroke),
+    );
+    insert("wheelset_excursion_rms_m", json!(ride.excursion));
+    insert(
+        "roll_acceleration_rms_rad_per_s2",
+        json!(ride.roll_acceleration),
+    );
+    insert("converged", json!(ride.converged));
+    Value::Object(object)
 }
 
 fn vertical(ride: &VerticalRide) -> Value {
-    json!({
-        "acceleration_rms_m_per_s2": points(&ride.passengers, |p| p.acceleration),
-        "acceleration_average_m_per_s2": ride.average_acceleration(),
-        "secondary_stroke_rms_m": ride.secondary_stroke,
-        "secondary_stroke_average_m": ride.average_stroke(),
-        "primary_stroke_rms_m": ride.primary_stroke,
-        "wheel_load_rms_n": ride.wheel_load,
-        "roll_acceleration_rms_rad_per_s2": ride.roll_acceleration,
-        "iso_2631_1_wk_rms_m_per_s2": points(&ride.passengers, |p| p.iso_weighted),
-        "en_12299_wb_rms_m_per_s2": points(&ride.passengers, |p| p.en_weighted),
-        "sperling_wz": points(&ride.passengers, |p| p.w_z),
-        "third_octave_bands": bands(&ride.passengers),
-        "converged": ride.converged,
-    })
+    let mut object = passengers(&ride.passengers, ride.average_acceleration(), ["wk", "wb"]);
+    let mut insert = |key: &str, value: Value| object.insert(key.into(), value);
+    insert("secondary_stroke_rms_m", json!(ride.secondary_stroke));
+    insert("secondary_stroke_average_m", json!(ride.average_stroke()));
+    insert("primary_stroke_rms_m", json!(ride.primary_stroke));
+    insert("wheel_load_rms_n", json!(ride.wheel_load));
+    insert(
+        "roll_acceleration_rms_rad_per_s2",
+        json!(ride.roll_acceleration),
+    );
+    insert("converged", json!(ride.converged));
+    Value::Object(object)
 }
 
 pub(super) fn check(check: &Check) -> Value {
