@@ -238,6 +238,47 @@ fn nothing_to_design_or_to_choose_by_is_said() {
     ));
 }
 
+/// With the stiffnesses fixed the choice is among the profiles as they are; with one variable the
+/// search is along a line.
+#[test]
+fn few_variables() {
+    let source = |design: &str| {
+        format!(
+            "[vehicle]\nbase = \"prototype\"\n[design]\n{design}\n\
+             [requirements]\ncritical_speed = \"120 mph\"\n"
+        )
+    };
+    let run = |text: &str| {
+        let spec = spec(&source(text));
+        design(
+            &spec.case,
+            &spec.design,
+            &spec.requirements,
+            &spec.limits,
+            &Silent,
+        )
+        .unwrap()
+    };
+    let profiles = run("conicity = { choices = [0.05, 0.10, 0.15, 0.25] }");
+    assert!(profiles.unmet.is_empty());
+    let best = profiles.evaluation.curving.unwrap().degree();
+    for conicity in [0.05, 0.10, 0.15, 0.25] {
+        let mut case = Case::prototype();
+        case.wheel_rail.conicity = conicity;
+        let evaluation = Evaluation::new(&case).unwrap();
+        if evaluation.stability.critical_speed().unwrap() >= 120.0 * MPH {
+            assert!(
+                evaluation.curving.unwrap().degree() <= best,
+                "λ = {conicity}"
+            );
+        }
+    }
+    let line = run("primary_bending_stiffness = [\"2e5 lbf ft/rad\", \"1e7 lbf ft/rad\"]");
+    assert_eq!(line.stages[0].status, Status::Optimal);
+    let speed = line.evaluation.stability.critical_speed().unwrap();
+    assert_ratio("critical speed", speed, 120.0 * MPH, 1e-5);
+}
+
 /// (4.6-2) foretells the critical speed of lighter running gear within 3 % where masses and
 /// inertias change together.
 #[test]

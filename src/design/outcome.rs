@@ -222,8 +222,8 @@ pub struct DesignResult {
     pub unmet: Vec<Unmet>,
 }
 
-/// A requirement counts as met within this share of it.
-const MET: f64 = 1e-5;
+/// A requirement counts as met within this share of it: what the coupling loop leaves.
+const MET: f64 = 1e-4;
 
 /// The requirements and limits that an evaluated design does not meet.
 pub fn unmet(evaluation: &Evaluation, requirements: &Requirements, limits: &Limits) -> Vec<Unmet> {

@@ -70,6 +70,9 @@ pub fn solve(
     progress: &dyn Progress,
 ) -> Result<Solved, Failure> {
     let evaluations = Evaluations::new(problem, progress);
+    if evaluations.dimension() == 0 {
+        return alone(evaluations.at(&[]));
+    }
     let (starts, radius, beat): (Vec<Point>, f64, f64) = match start {
         Start::Near(x) => (vec![evaluations.at(x)], local::NARROW, f64::INFINITY),
         Start::Everywhere { seed, also, beat } => {
@@ -125,6 +128,26 @@ pub fn solve(
         solution,
         evaluations,
         failed,
+    })
+}
+
+/// The only design there is, where no variable is open: one profile among several.
+fn alone(point: Point) -> Result<Solved, Failure> {
+    let feasible = point.values.as_ref().map_err(Clone::clone)?.violation() <= FEASIBLE;
+    let status = if feasible {
+        Status::Optimal
+    } else {
+        Status::Infeasible
+    };
+    Ok(Solved {
+        solution: Solution {
+            point,
+            status,
+            kkt_residual: 0.0,
+            multipliers: Vec::new(),
+        },
+        evaluations: 1,
+        failed: 0,
     })
 }
 
