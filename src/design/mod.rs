@@ -12,3 +12,4 @@ pub mod solve;
 pub mod stability_curving;
 mod subproblem;
 mod surrogate;
+pub mod unmet;

@@ -5,11 +5,12 @@
 //! trade-off then alternate until neither changes anything.
 
 use super::{
-    outcome::{Alternative, DesignResult, Stage, StageResult, unmet},
+    outcome::{Alternative, DesignResult, Stage, StageResult},
     problem::{FEASIBLE, Failure, Problem},
     ride::{self, Direction, Ride},
     solve::{Progress, Solved, Start, solve},
     stability_curving::{self, Goal, Open, StabilityCurving},
+    unmet::unmet,
 };
 use crate::{
     case::Case,

@@ -9,11 +9,11 @@
 use nalgebra::Complex;
 
 use super::{
-    hopf::hopf,
-    lateral_modes::OVERDAMPED,
+    followed_modes::Spectrum,
+    hopf::{Hopf, hopf},
     mode::{Mode, damping_ratio, frequency},
 };
-use crate::dynamics::{EigenError, LateralModel, eigenvalues, lateral::Body};
+use crate::dynamics::{EigenError, LateralModel, lateral::Body};
 
 /// Speeds in the search grid.
 const GRID: usize = 20;
@@ -151,7 +151,7 @@ impl Stability {
         Ok(())
     }
 
-    fn add(&mut self, model: &LateralModel, found: super::hopf::Hopf) {
+    fn add(&mut self, model: &LateralModel, found: Hopf) {
         let omega = found.mode.eigenvalue.im;
         let known = |c: &Crossing| {
             (c.speed / found.speed - 1.0).abs() < 1e-9
@@ -262,7 +262,7 @@ fn bisect(
     model: &LateralModel,
     low: &Spectrum,
     high: &Spectrum,
-) -> Result<Option<super::hopf::Hopf>, EigenError> {
+) -> Result<Option<Hopf>, EigenError> {
     let (mut low, mut high) = (low.clone(), high.clone());
     let count = low.unstable();
     if high.unstable() <= count {
@@ -289,70 +289,4 @@ fn bisect(
         }
     }
     Ok(None)
-}
-
-/// Oscillatory eigenvalues at one speed.
-#[derive(Debug, Clone)]
-struct Spectrum {
-    speed: f64,
-    /// Those with positive imaginary part.
-    oscillatory: Vec<Complex<f64>>,
-    /// Whether a real eigenvalue is positive.
-    diverges: bool,
-}
-
-impl Spectrum {
-    fn at(model: &LateralModel, speed: f64) -> Result<Self, EigenError> {
-        let values = eigenvalues(model.forced.system.state_matrix(speed))?;
-        Ok(Self {
-            speed,
-            diverges: values.iter().any(|s| s.im == 0.0 && s.re > 0.0),
-            oscillatory: values.into_iter().filter(|s| s.im > 0.0).collect(),
-        })
-    }
-
-    fn unstable(&self) -> usize {
-        self.oscillatory.iter().filter(|s| s.re >= 0.0).count()
-    }
-
-    fn nearest(&self, to: Complex<f64>) -> Option<Complex<f64>> {
-        self.oscillatory
-            .iter()
-            .copied()
-            .min_by(|a, b| (a - to).norm_sqr().total_cmp(&(b - to).norm_sqr()))
-    }
-
-    /// Pairs every oscillatory mode with where it is at another speed, the closest pairs first.
-    fn follow(&self, other: &Self) -> Vec<(Complex<f64>, Complex<f64>)> {
-        let relevant = |s: &&Complex<f64>| damping_ratio(**s) < OVERDAMPED;
-        let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
-        for (i, from) in self
-            .oscillatory
-            .iter()
-            .enumerate()
-            .filter(|(_, s)| relevant(s))
-        {
-            for (j, to) in other
-                .oscillatory
-                .iter()
-                .enumerate()
-                .filter(|(_, s)| relevant(s))
-            {
-                pairs.push(((from - to).norm() / (from.norm() + to.norm()), i, j));
-            }
-        }
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut taken = (
-            vec![false; self.oscillatory.len()],
-            vec![false; other.oscillatory.len()],
-        );
-        let mut followed = Vec::new();
-        for (_, i, j) in pairs {
-            if !taken.0[i] && !taken.1[j] {
-                (taken.0[i], taken.1[j]) = (true, true);
-                followed.push((self.oscillatory[i], other.oscillatory[j]));
-            }
-        }
-        followed
-    }
 }

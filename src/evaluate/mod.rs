@@ -2,8 +2,10 @@
 
 pub mod checks;
 pub mod critical_speed;
+pub mod cross_checks;
 pub mod curving;
 pub mod equalization;
+mod followed_modes;
 mod hopf;
 pub mod integration;
 pub mod lateral_modes;

@@ -1,0 +1,76 @@
+//! Oscillatory modes followed from one speed to another.
+
+use nalgebra::Complex;
+
+use super::{lateral_modes::OVERDAMPED, mode::damping_ratio};
+use crate::dynamics::{EigenError, LateralModel, eigenvalues};
+
+/// Oscillatory eigenvalues at one speed.
+#[derive(Debug, Clone)]
+pub(super) struct Spectrum {
+    /// V, m/s.
+    pub speed: f64,
+    /// Those with positive imaginary part.
+    pub oscillatory: Vec<Complex<f64>>,
+    /// Whether a real eigenvalue is positive.
+    pub diverges: bool,
+}
+
+impl Spectrum {
+    /// Computes them at `speed`, m/s.
+    pub fn at(model: &LateralModel, speed: f64) -> Result<Self, EigenError> {
+        let values = eigenvalues(model.forced.system.state_matrix(speed))?;
+        Ok(Self {
+            speed,
+            diverges: values.iter().any(|s| s.im == 0.0 && s.re > 0.0),
+            oscillatory: values.into_iter().filter(|s| s.im > 0.0).collect(),
+        })
+    }
+
+    /// Number of growing oscillations.
+    pub fn unstable(&self) -> usize {
+        self.oscillatory.iter().filter(|s| s.re >= 0.0).count()
+    }
+
+    /// The mode nearest to an eigenvalue.
+    pub fn nearest(&self, to: Complex<f64>) -> Option<Complex<f64>> {
+        self.oscillatory
+            .iter()
+            .copied()
+            .min_by(|a, b| (a - to).norm_sqr().total_cmp(&(b - to).norm_sqr()))
+    }
+
+    /// Pairs every oscillatory mode with where it is at another speed, the closest pairs first.
+    pub fn follow(&self, other: &Self) -> Vec<(Complex<f64>, Complex<f64>)> {
+        let relevant = |s: &&Complex<f64>| damping_ratio(**s) < OVERDAMPED;
+        let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+        for (i, from) in self
+            .oscillatory
+            .iter()
+            .enumerate()
+            .filter(|(_, s)| relevant(s))
+        {
+            for (j, to) in other
+                .oscillatory
+                .iter()
+                .enumerate()
+                .filter(|(_, s)| relevant(s))
+            {
+                pairs.push(((from - to).norm() / (from.norm() + to.norm()), i, j));
+            }
+        }
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut taken = (
+            vec![false; self.oscillatory.len()],
+            vec![false; other.oscillatory.len()],
+        );
+        let mut followed = Vec::new();
+        for (_, i, j) in pairs {
+            if !taken.0[i] && !taken.1[j] {
+                (taken.0[i], taken.1[j]) = (true, true);
+                followed.push((self.oscillatory[i], other.oscillatory[j]));
+            }
+        }
+        followed
+    }
+}
