@@ -58,6 +58,8 @@ pub enum Start<'a> {
 const PROMISE: f64 = 0.3;
 /// Objectives closer than this are the same: the tolerance on constraints times their multipliers.
 const SAME: f64 = 2e-5;
+/// Seed of a global phase that takes the place of a search nearby.
+const AGAIN: u64 = 1;
 
 /// Solves a problem.
 ///
@@ -74,7 +76,19 @@ pub fn solve(
         return alone(evaluations.at(&[]));
     }
     let (starts, radius, beat): (Vec<Point>, f64, f64) = match start {
-        Start::Near(x) => (vec![evaluations.at(x)], local::NARROW, f64::INFINITY),
+        Start::Near(x) => {
+            let point = evaluations.at(x);
+            if point.values.is_ok() {
+                (vec![point], local::NARROW, f64::INFINITY)
+            } else {
+                // What the other trade-off changed has left this design without a performance.
+                (
+                    global::search(&evaluations, AGAIN),
+                    local::WIDE,
+                    f64::INFINITY,
+                )
+            }
+        }
         Start::Everywhere { seed, also, beat } => {
             evaluations.all(also);
             let starts = global::search(&evaluations, seed);
@@ -115,7 +129,8 @@ pub fn solve(
             .values
             .as_ref()
             .is_ok_and(|v| v.violation() <= FEASIBLE);
-        if feasible && improvement(&solution.point, &point) > SAME {
+        let better = improvement(&solution.point, &point) > SAME;
+        if feasible && (better || solution.status == Status::Infeasible) {
             solution.status = Status::Stalled;
         }
         solution.point = point;
