@@ -23,6 +23,11 @@ pub struct Service {
     pub speed: f64,
     /// Irregularities of the tangent track.
     pub track: Track,
+    /// Degree of the curve in which forces on the rails are judged, rad; `None`: the tightest
+    /// that the vehicle runs without flange contact or slip.
+    pub curve: Option<f64>,
+    /// φ_d there, rad.
+    pub cant_deficiency: f64,
 }
 
 /// How the truck frame rolls in the lateral model.
@@ -94,6 +99,8 @@ impl Case {
             service: Service {
                 speed: 110.0 * crate::units::us::MILE / 3600.0,
                 track: Track::fra_class(6).expect("class 6 exists"),
+                curve: None,
+                cant_deficiency: 0.0,
             },
             vehicle: Vehicle::prototype(),
             wheel_rail: WheelRail::default(),

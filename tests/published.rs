@@ -6,15 +6,18 @@ use std::fmt::Write;
 
 use bogie::{
     case::Case,
-    design::{
-        local::Status,
-        problem::Problem,
-        solve::{Silent, Start, solve},
-        stability_curving::{Goal, Limits, Open, StabilityCurving},
-    },
+    design::{search, search::shortfall, study::Study},
     dynamics::LateralModel,
     evaluate::{Evaluation, critical_speed::Stability, curving::CurvingLimits},
-    spec::Spec,
+    index,
+    optimize::{
+        archive::{Archive, Silent},
+        local::Status,
+        problem::Problem,
+        solve::{Solved, Start},
+    },
+    parameter::Parameter,
+    spec::{Interval, Spec},
     units::us::INCH,
     vehicle::GRAVITY,
 };
@@ -84,17 +87,23 @@ impl Optimum {
 
     /// The optimisation that the row answers: the highest degree curve at its critical speed, over
     /// the ranges of the report's charts.
-    fn problem(&self) -> StabilityCurving {
-        let goal = Goal::Curving {
-            critical_speed: self.critical_speed_mph * MPH,
-        };
-        let open = Open {
-            bending_stiffness: Some([1e5 * LBF_FT, 2e7 * LBF_FT]),
-            lateral_stiffness: Some([2e4 * LBF_PER_FT, 5e6 * LBF_PER_FT]),
-            conicity: None,
-        };
-        StabilityCurving::new(&self.case(), goal, Limits::default(), open)
+    fn study(&self) -> Study {
+        let bending = Interval::from([1e5 * LBF_FT, 2e7 * LBF_FT]);
+        let lateral = Interval::from([2e4 * LBF_PER_FT, 5e6 * LBF_PER_FT]);
+        Study::new(&self.case(), &[])
+            .vary(Parameter::PrimaryBendingStiffness, bending)
+            .vary(Parameter::PrimaryLateralStiffness, lateral)
+            .optimise(0, index::Index::DegreeCurve, 0, 1.0)
+            .demand(
+                0,
+                index::Index::CriticalSpeed,
+                self.critical_speed_mph * MPH,
+            )
     }
+}
+
+fn solved(study: &Study) -> Solved {
+    search(study, &Start::everywhere(1), &Archive::new(&Silent)).unwrap()
 }
 
 /// The ratios were noted to two decimals; one of the eighteen degree curves (λ = 0.025, 300 mph)
@@ -131,18 +140,9 @@ fn table_4_5_1_evaluated() {
 fn table_4_5_1_optimised() {
     for row in published().optimum {
         let what = format!("λ {} {} mph", row.conicity, row.critical_speed_mph);
-        let problem = row.problem();
-        let solved = solve(
-            &problem,
-            Start::Everywhere {
-                seed: 1,
-                also: &[],
-                beat: f64::INFINITY,
-            },
-            &Silent,
-        )
-        .unwrap();
-        let case = problem.design(&solved.solution.point.x);
+        let study = row.study();
+        let solved = solved(&study);
+        let case = study.design(&solved.point.x);
         let (speed, degree_reached) = (critical_speed_mph(&case), degree(&case));
         let reached = speed >= row.critical_speed_mph * (1.0 - 1e-5);
         // One row asks for more than the model can give: 250 mph at λ = 0.1.
@@ -154,11 +154,7 @@ fn table_4_5_1_optimised() {
         } else {
             Status::Infeasible
         };
-        assert_eq!(
-            solved.solution.status, expected,
-            "{what}: {:e}",
-            solved.solution.kkt_residual
-        );
+        assert_eq!(solved.status, expected, "{what}");
         let table = row.case();
         if critical_speed_mph(&table) >= row.critical_speed_mph {
             assert!(
@@ -182,18 +178,12 @@ fn table_4_5_1_optimised() {
 fn no_grid_point_beats_the_optimum() {
     for row in published().optimum {
         let what = format!("λ {} {} mph", row.conicity, row.critical_speed_mph);
-        let problem = row.problem();
-        let solved = solve(
-            &problem,
-            Start::Everywhere {
-                seed: 1,
-                also: &[],
-                beat: f64::INFINITY,
-            },
-            &Silent,
-        )
-        .unwrap();
-        let best = solved.solution.point.values.unwrap();
+        // What cannot be met is judged by the shortfall of the speed itself.
+        let study = row.study();
+        let solved = solved(&study);
+        let short = solved.status == Status::Infeasible;
+        let problem = if short { shortfall(&study) } else { study };
+        let best = problem.evaluate(&solved.point.x).unwrap();
         let n = 13;
         for i in 0..n {
             for j in 0..n {
@@ -202,12 +192,7 @@ fn no_grid_point_beats_the_optimum() {
                     f64::from(j) / f64::from(n - 1),
                 ];
                 let values = problem.evaluate(&x).unwrap();
-                if best.violation() > 1e-6 {
-                    assert!(
-                        values.violation() >= best.violation() - 1e-6,
-                        "{what} {x:?}"
-                    );
-                } else if values.violation() <= 0.0 {
+                if values.violation() <= 0.0 {
                     assert!(
                         values.objective() >= best.objective() - 1e-6,
                         "{what} {x:?}"
@@ -373,22 +358,14 @@ fn validation_table() -> String {
     );
     for row in &data.optimum {
         let table = row.case();
-        let problem = row.problem();
-        let solved = solve(
-            &problem,
-            Start::Everywhere {
-                seed: 1,
-                also: &[],
-                beat: f64::INFINITY,
-            },
-            &Silent,
-        )
-        .unwrap();
-        let best = problem.design(&solved.solution.point.x);
-        let status = match solved.solution.status {
+        let study = row.study();
+        let solved = solved(&study);
+        let best = study.design(&solved.point.x);
+        let status = match solved.status {
             Status::Optimal => "optimal",
             Status::Stalled => "stalled",
             Status::Infeasible => "out of reach",
+            Status::BudgetSpent | Status::Interrupted => "ended early",
         };
         let _ = writeln!(
             text,

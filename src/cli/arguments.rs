@@ -17,7 +17,9 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Choose the suspension that is best within the spec's limits
-    Optimize(Run),
+    Optimize(Optimize),
+    /// Trace the front between two or three indices, each point the best that the others allow
+    Pareto(Pareto),
     /// Compute every performance index of the design as it stands
     Evaluate(Run),
     /// List the modes of vibration, and damping against speed
@@ -53,6 +55,69 @@ pub struct Run {
     /// Write the result into this folder instead of to standard output
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// Options of a long search.
+#[derive(Debug, Args)]
+pub struct Search {
+    /// End after this many full-model evaluations with the best found
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub budget: Option<u64>,
+
+    /// Go on where an earlier run into the same --out folder was interrupted
+    #[arg(long, requires = "out")]
+    pub resume: bool,
+}
+
+/// Options of `optimize`.
+#[derive(Debug, Args)]
+pub struct Optimize {
+    #[command(flatten)]
+    pub run: Run,
+
+    #[command(flatten)]
+    pub search: Search,
+}
+
+/// Options of `pareto`.
+#[derive(Debug, Args)]
+pub struct Pareto {
+    #[command(flatten)]
+    pub source: Source,
+
+    #[command(flatten)]
+    pub search: Search,
+
+    /// Form of the result
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    pub format: TableFormat,
+
+    /// Write the result into this folder instead of to standard output
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Two or three indices, separated by commas (default: those of [pareto] in the spec, or
+    /// critical_speed,degree_curve)
+    #[arg(long, value_name = "INDEX,INDEX", value_delimiter = ',')]
+    pub indices: Vec<String>,
+
+    /// Points of the front (default: those of [pareto] in the spec, or 20)
+    #[arg(long, value_name = "N")]
+    pub points: Option<usize>,
+}
+
+/// Form of a result that is a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TableFormat {
+    /// An aligned table in SI and US customary units
+    Text,
+    /// SI, with the unit in every key
+    Json,
+    /// SI, with the unit in every column's name
+    Csv,
+    /// As CSV, for data frames
+    #[cfg(feature = "parquet")]
+    Parquet,
 }
 
 /// Form of a result.

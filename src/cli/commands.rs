@@ -1,11 +1,8 @@
 //! One function per command.
 
 use bogie::{
-    design::procedure::{self, DesignError},
     evaluate::{Evaluation, warnings::warnings},
-    export::{
-        self, curve::Curving, design_json, design_text, evaluation_json, modes, psd::Spectra,
-    },
+    export::{self, curve::Curving, evaluation_json, modes, psd::Spectra},
     spec::STARTER,
     track::{MAX_DEGREE, SUPERELEVATION_BASE},
     units::Quantity,
@@ -16,51 +13,10 @@ use super::{
     Done, Failure,
     arguments::{Check, Curve, Format, Init, Modes, Psd, Run},
     input, output,
-    progress::Line,
 };
 
-pub fn optimize(run: &Run) -> Result<Done, Failure> {
-    let input::Named { name, spec } = input::read(&run.source.spec)?;
-    let progress = Line::new();
-    let designed = procedure::design(
-        &spec.case,
-        &spec.design,
-        &spec.requirements,
-        &spec.limits,
-        &progress,
-    );
-    progress.finish();
-    let result = designed.map_err(|error| match error {
-        DesignError::NothingOpen | DesignError::NoRequirement => {
-            Failure::Invalid(format!("error: {}: {error}", run.source.spec.display()))
-        }
-        error => failed(error),
-    })?;
-    let warnings = warnings(&result.case, &result.evaluation);
-    deliver(
-        run,
-        "optimize",
-        || design_text::design(&name, &result, &spec.requirements, &spec.limits, &warnings),
-        || {
-            design_json::design(
-                &name,
-                &result,
-                &spec.design,
-                &spec.requirements,
-                &spec.limits,
-                &warnings,
-            )
-        },
-    )?;
-    Ok(if result.unmet.is_empty() {
-        Done::Complete
-    } else {
-        Done::Unmet
-    })
-}
-
 pub fn evaluate(run: &Run) -> Result<Done, Failure> {
-    let input::Named { name, spec } = input::read(&run.source.spec)?;
+    let input::Named { name, spec, .. } = input::read(&run.source.spec)?;
     let evaluation = Evaluation::new(&spec.case).map_err(failed)?;
     let warnings = warnings(&spec.case, &evaluation);
     deliver(
@@ -73,7 +29,7 @@ pub fn evaluate(run: &Run) -> Result<Done, Failure> {
 }
 
 pub fn modes(call: &Modes) -> Result<Done, Failure> {
-    let input::Named { name, spec } = input::read(&call.run.source.spec)?;
+    let input::Named { name, spec, .. } = input::read(&call.run.source.spec)?;
     let speeds = if call.speeds.is_empty() {
         (1..=10)
             .map(|i| 0.2 * f64::from(i) * spec.case.service.speed)
@@ -95,7 +51,7 @@ pub fn modes(call: &Modes) -> Result<Done, Failure> {
 }
 
 pub fn curve(call: &Curve) -> Result<Done, Failure> {
-    let input::Named { name, spec } = input::read(&call.run.source.spec)?;
+    let input::Named { name, spec, .. } = input::read(&call.run.source.spec)?;
     if let Some(degree) = call.degree
         && !(degree > 0.0 && degree <= MAX_DEGREE)
     {
@@ -115,10 +71,10 @@ pub fn curve(call: &Curve) -> Result<Done, Failure> {
 }
 
 pub fn psd(call: &Psd) -> Result<Done, Failure> {
-    let input::Named { name, spec } = input::read(&call.run.source.spec)?;
+    let input::Named { name, spec, .. } = input::read(&call.run.source.spec)?;
     let spectra = Spectra::new(&spec.case, call.points as usize);
     if call.csv {
-        output::write(&spectra.csv(), call.run.out.as_deref(), "psd.csv")?;
+        output::write(spectra.csv(), call.run.out.as_deref(), "psd.csv")?;
         return Ok(Done::Complete);
     }
     deliver(
@@ -157,7 +113,7 @@ pub fn init(call: &Init) -> Result<Done, Failure> {
     Ok(Done::Complete)
 }
 
-fn deliver(
+pub(super) fn deliver(
     run: &Run,
     command: &str,
     text: impl FnOnce() -> String,
@@ -173,11 +129,11 @@ fn deliver(
     output::write(&text, run.out.as_deref(), &format!("{command}.{ending}"))
 }
 
-fn failed(error: impl std::fmt::Display) -> Failure {
+pub(super) fn failed(error: impl std::fmt::Display) -> Failure {
     Failure::Failed(error.to_string())
 }
 
-fn wrong(text: &str) -> Failure {
+pub(super) fn wrong(text: &str) -> Failure {
     Failure::Invalid(format!("error: {text}"))
 }
 

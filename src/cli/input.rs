@@ -7,12 +7,16 @@ use std::{
 
 use bogie::spec::{MAX_BYTES, Spec};
 
+use sha2::{Digest, Sha256};
+
 use super::Failure;
 
 /// A spec with the name that results carry.
 pub struct Named {
     pub name: String,
     pub spec: Spec,
+    /// SHA-256 of the spec's text.
+    pub digest: String,
 }
 
 /// Reads a spec from a file, or from standard input for `-`.
@@ -52,5 +56,6 @@ pub fn read(path: &Path) -> Result<Named, Failure> {
         Some(stem) if !is_stdin => stem.to_string_lossy().into_owned(),
         _ => "spec".into(),
     };
-    Ok(Named { name, spec })
+    let digest = format!("{:x}", Sha256::digest(&bytes));
+    Ok(Named { name, spec, digest })
 }

@@ -6,7 +6,9 @@
 
 mod arguments;
 mod commands;
+mod design;
 mod input;
+mod interrupt;
 mod output;
 mod progress;
 
@@ -40,7 +42,8 @@ enum Done {
 pub fn run() -> ExitCode {
     let arguments = Arguments::parse();
     let result = match &arguments.command {
-        Command::Optimize(call) => commands::optimize(call),
+        Command::Optimize(call) => design::optimize(call),
+        Command::Pareto(call) => design::pareto(call),
         Command::Evaluate(call) => commands::evaluate(call),
         Command::Modes(call) => commands::modes(call),
         Command::Curve(call) => commands::curve(call),

@@ -10,24 +10,26 @@ use bogie::export::file;
 use super::Failure;
 
 /// Writes a result to standard output, or into a folder as `name`.
-pub fn write(text: &str, out: Option<&Path>, name: &str) -> Result<(), Failure> {
+pub fn write(content: impl AsRef<[u8]>, out: Option<&Path>, name: &str) -> Result<(), Failure> {
     let Some(folder) = out else {
-        return print(text);
+        return print(content);
     };
     let path = folder.join(name);
-    file::write(&path, text)
+    file::write(&path, content)
         .map_err(|error| Failure::Failed(format!("cannot write {}: {error}", path.display())))?;
     eprintln!("wrote {}", path.display());
     Ok(())
 }
 
 /// Prints to standard output; a reader that has gone away is no error.
-pub fn print(text: &str) -> Result<(), Failure> {
+pub fn print(content: impl AsRef<[u8]>) -> Result<(), Failure> {
+    let content = content.as_ref();
     let mut stdout = std::io::stdout().lock();
     let written = stdout
-        .write_all(text.as_bytes())
+        .write_all(content)
         .and_then(|()| {
-            if text.ends_with('\n') {
+            // A table for data frames is no text.
+            if content.ends_with(b"\n") || content.starts_with(b"PAR1") {
                 Ok(())
             } else {
                 stdout.write_all(b"\n")

@@ -2,33 +2,36 @@
 
 use std::time::Duration;
 
-use bogie::design::{outcome::Stage, solve::Progress};
+use bogie::optimize::archive::Progress;
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// A line on standard error with the trade-off at work and the evaluations done; `indicatif` shows
-/// it on a terminal only.
+/// A line on standard error with what is at work, the evaluations done, their rate and the time
+/// left; `indicatif` shows it on a terminal only.
 pub struct Line(ProgressBar);
 
 impl Line {
     pub fn new() -> Self {
-        let bar = ProgressBar::new_spinner();
-        if let Ok(style) =
-            ProgressStyle::with_template("{spinner} {msg}: {pos} evaluations, {per_sec}, {elapsed}")
-        {
+        let bar = ProgressBar::new(0);
+        let template = "{spinner} {msg}: {pos} evaluations, {per_sec}, {elapsed}, about {eta} left";
+        if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
         bar.enable_steady_tick(Duration::from_millis(100));
         Self(bar)
     }
 
-    pub fn finish(self) {
+    pub fn finish(&self) {
         self.0.finish_and_clear();
     }
 }
 
 impl Progress for Line {
-    fn stage(&self, stage: Stage, round: usize) {
-        self.0.set_message(format!("{stage}, round {}", round + 1));
+    fn stage(&self, what: &str) {
+        self.0.set_message(what.to_owned());
+    }
+
+    fn expected(&self, evaluations: usize) {
+        self.0.set_length(evaluations as u64);
     }
 
     fn evaluated(&self) {

@@ -3,7 +3,8 @@
 use super::outcome::DesignResult;
 use crate::{
     closed_form::natural_frequencies as closed,
-    spec::{Limits, Requirements},
+    evaluate::limits::PEAK,
+    index::{Demands, Index},
     units::Quantity,
 };
 
@@ -40,27 +41,27 @@ fn line(
 
 /// Fills the form. Where the report adds up chart readings (steps 6, 7, 14, 15, 22, 23), the full
 /// models give the sum directly.
-pub fn form(result: &DesignResult, requirements: &Requirements, limits: &Limits) -> Vec<Line> {
-    let mut lines = wheel_rail(result, requirements);
+pub fn form(result: &DesignResult, demands: &Demands) -> Vec<Line> {
+    let mut lines = wheel_rail(result, demands);
     lines.extend(stability_curving(result));
-    lines.extend(lateral(result, requirements, limits));
-    lines.extend(vertical(result, requirements, limits));
+    lines.extend(lateral(result, demands));
+    lines.extend(vertical(result, demands));
     lines.extend(dependent(result));
     lines
 }
 
 /// Steps 1–3.
-fn wheel_rail(result: &DesignResult, requirements: &Requirements) -> Vec<Line> {
+fn wheel_rail(result: &DesignResult, demands: &Demands) -> Vec<Line> {
     use Quantity::{DegreeOfCurve, Dimensionless, Force, LateralSpinCreep, Speed, SpinCreep};
     let c = result.case.wheel_rail.contact();
-    let degree = requirements.degree_curve.map(f64::to_radians);
+    let degree = demands.get(Index::DegreeCurve);
     vec![
         line(
             "1",
             "desired critical speed",
             "V_cr*",
             Speed,
-            requirements.critical_speed,
+            demands.get(Index::CriticalSpeed),
         ),
         line("2", "desired degree curve", "D*", DegreeOfCurve, degree),
         line("3", "wheel conicity", "λ", Dimensionless, c.conicity),
@@ -148,18 +149,18 @@ fn stability_curving(result: &DesignResult) -> Vec<Line> {
 
 /// The report's desired strokes are RMS values; limits are peaks.
 fn rms(peak: Option<f64>) -> Option<f64> {
-    peak.map(|p| p / super::ride::PEAK)
+    peak.map(|p| p / PEAK)
 }
 
 /// Steps 9–16.
-fn lateral(result: &DesignResult, requirements: &Requirements, limits: &Limits) -> Vec<Line> {
+fn lateral(result: &DesignResult, demands: &Demands) -> Vec<Line> {
     use Quantity::{Acceleration, Damping, Dimensionless, Frequency, Stiffness, Stroke};
     let mass = result.case.vehicle.carbody.mass;
     let s = &result.case.vehicle.suspension.secondary;
     let (k, c) = (s.lateral_stiffness, s.lateral_damping);
     let ride = result.evaluation.lateral.as_ref();
-    let desired = requirements.lateral_acceleration;
-    let stroke = rms(limits.secondary_lateral_stroke);
+    let desired = demands.get(Index::LateralAcceleration);
+    let stroke = rms(demands.get(Index::SecondaryLateralStroke));
     vec![
         line(
             "9",
@@ -209,14 +210,14 @@ fn lateral(result: &DesignResult, requirements: &Requirements, limits: &Limits) 
 }
 
 /// Steps 17–24.
-fn vertical(result: &DesignResult, requirements: &Requirements, limits: &Limits) -> Vec<Line> {
+fn vertical(result: &DesignResult, demands: &Demands) -> Vec<Line> {
     use Quantity::{Acceleration, Damping, Dimensionless, Frequency, Stiffness, Stroke};
     let mass = result.case.vehicle.carbody.mass;
     let s = &result.case.vehicle.suspension.secondary;
     let (k, c) = (s.vertical_stiffness, s.vertical_damping);
     let ride = result.evaluation.vertical.as_ref();
-    let desired = requirements.vertical_acceleration;
-    let stroke = rms(limits.secondary_vertical_stroke);
+    let desired = demands.get(Index::VerticalAcceleration);
+    let stroke = rms(demands.get(Index::SecondaryVerticalStroke));
     vec![
         line(
             "17",

@@ -1,15 +1,20 @@
 //! The design procedure: constrained optimisation around the full models.
+//!
+//! [`tasks`] turns a spec into studies; a [`study`] measures indices ([`measure`]) and judges them;
+//! [`search`](search()) solves it, [`explain`] puts the solution into an engineer's terms, [`procedure`]
+//! runs the report's trade-offs and the joint optimisation, [`conflict`] tells which demands stand
+//! against one another where they cannot all be met.
 
-mod evaluations;
+pub mod conflict;
+pub mod explain;
 pub mod form;
-mod global;
-pub mod local;
+pub mod margin;
+pub mod measure;
 pub mod outcome;
-pub mod problem;
+pub mod pareto;
 pub mod procedure;
-pub mod ride;
-pub mod solve;
-pub mod stability_curving;
-mod subproblem;
-mod surrogate;
-pub mod unmet;
+pub mod search;
+pub mod study;
+pub mod tasks;
+
+pub use search::search;

@@ -1,28 +1,42 @@
-//! The design procedure: three trade-offs in the order of Figure 4.2.1 with the coupling loop.
+//! The design procedure: three trade-offs in the order of Figure 4.2.1 with the coupling loop, and
+//! all at once.
 //!
 //! The vertical trade-off depends on nothing that the others choose, so it comes first and once
 //! (its K_sz is part of the lateral model's roll stiffness). Stability–curving and the lateral
 //! trade-off then alternate until neither changes anything.
 
+use std::time::Instant;
+
 use super::{
-    outcome::{Alternative, DesignResult, Stage, StageResult},
-    problem::{FEASIBLE, Failure, Problem},
-    ride::{self, Direction, Ride},
-    solve::{Progress, Solved, Start, solve},
-    stability_curving::{self, Goal, Open, StabilityCurving},
-    unmet::unmet,
+    conflict::conflict,
+    explain::Explained,
+    margin::{margins, value},
+    outcome::{Compared, DesignResult, InCondition, Joint, Profile, StageResult},
+    search::search,
+    study::{Role, Study},
+    tasks::{Task, Tasks},
 };
 use crate::{
     case::Case,
-    dynamics::EigenError,
-    evaluate::Evaluation,
-    spec::{ConicitySpace, DesignSpace, Interval, Limits, Requirements},
+    dynamics::{EigenError, LateralModel},
+    evaluate::{Evaluation, critical_speed::Stability, curving::CurvingLimits},
+    index::Index,
+    optimize::{
+        archive::Archive,
+        local::Status,
+        problem::{Problem, Values},
+        solve::{Effort, NoDesign, Solved, Start},
+    },
+    parameter::TradeOff,
+    spec::{Order, Spec},
 };
 
 /// Rounds of the coupling loop.
 const ROUNDS: usize = 10;
 /// Change of every scaled variable below which a round changed nothing.
 const UNCHANGED: f64 = 1e-4;
+/// Objective behind the best down to which a profile may still win in a later round: 5 %.
+const RACE: f64 = 0.05;
 
 /// Why there is no design.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -32,291 +46,431 @@ pub enum DesignError {
     NothingOpen,
     /// Open stiffnesses without anything to judge them by.
     #[error(
-        "the primary suspension or conicity is open, but [requirements] gives neither a \
-         critical_speed nor a degree_curve to choose them by"
+        "the primary suspension, the yaw suspension or the conicity is open, but [requirements] \
+         gives neither a critical_speed nor a degree_curve to choose them by, nor is there an \
+         [objective]"
     )]
     NoRequirement,
     /// No design in the range could be evaluated.
-    #[error("{stage}: no design within the bounds could be evaluated: {failure}")]
+    #[error("{}{reason}", .trade_off.map_or_else(String::new, |t| format!("{t}: ")))]
     NothingEvaluated {
         /// Where.
-        stage: Stage,
-        /// Why the last of them failed.
-        failure: Failure,
+        trade_off: Option<TradeOff>,
+        /// Why.
+        reason: NoDesign,
     },
     /// The chosen design could not be evaluated.
     #[error(transparent)]
     Eigen(#[from] EigenError),
 }
 
-/// Designs the suspension of a case.
+/// Designs the suspension of a spec.
 ///
 /// # Errors
 ///
 /// [`DesignError`] where there is nothing to choose or nothing to choose by. Requirements that
 /// cannot be met are no error: the result holds the best compromise and says what is not met.
-pub fn design(
-    case: &Case,
-    space: &DesignSpace,
-    requirements: &Requirements,
-    limits: &Limits,
-    progress: &dyn Progress,
-) -> Result<DesignResult, DesignError> {
-    let procedure = Procedure {
-        space,
-        requirements,
-        limits,
-        progress,
-    };
-    let primary_open = space.primary_bending_stiffness.is_some()
-        || space.primary_lateral_stiffness.is_some()
-        || space.conicity.is_some();
-    let lateral_open = space.secondary_lateral_frequency.is_some()
-        || space.secondary_lateral_damping_ratio.is_some();
-    let vertical_open = space.secondary_vertical_frequency.is_some()
-        || space.secondary_vertical_damping_ratio.is_some();
-    if !(primary_open || lateral_open || vertical_open) {
+pub fn design(spec: &Spec, archive: &Archive) -> Result<DesignResult, DesignError> {
+    let tasks = Tasks::new(spec);
+    let all = [
+        TradeOff::Vertical,
+        TradeOff::StabilityCurving,
+        TradeOff::Lateral,
+    ];
+    let open: Vec<TradeOff> = all.into_iter().filter(|t| tasks.open(*t)).collect();
+    if open.is_empty() {
         return Err(DesignError::NothingOpen);
     }
-    let mut now = case.clone();
-    let mut stages = Vec::new();
-    if vertical_open {
-        let stage = procedure.ride(Direction::Vertical, &mut now, 0)?;
-        stages.push(stage);
+    let judged = |index| spec.demands.get(index).is_some();
+    if spec.objective.is_empty()
+        && open.contains(&TradeOff::StabilityCurving)
+        && !(judged(Index::CriticalSpeed) || judged(Index::DegreeCurve))
+    {
+        return Err(DesignError::NoRequirement);
     }
-    let mut rounds = 0;
-    let mut field = None;
-    let mut settled = !(primary_open || lateral_open);
-    while !settled && rounds < ROUNDS {
-        let mut moved: f64 = 0.0;
-        let mut round = Vec::new();
-        if primary_open {
-            let before = now.clone();
-            let stage = procedure.stability_curving(&mut now, rounds, &mut field)?;
-            moved = moved.max(stage.distance(&before, &now));
-            round.push(stage);
-        }
-        if lateral_open {
-            let before = now.clone();
-            let stage = procedure.ride(Direction::Lateral, &mut now, rounds)?;
-            moved = moved.max(stage.distance(&before, &now));
-            round.push(stage);
-        }
-        rounds += 1;
-        settled = moved < UNCHANGED || !(primary_open && lateral_open);
-        StageResult::merge(&mut stages, round);
-    }
-    let evaluation = Evaluation::new(&now)?;
-    let mut half = now.clone();
-    half.wheel_rail.creep_factor *= 0.5;
-    Ok(DesignResult {
-        unmet: unmet(&evaluation, requirements, limits),
-        half_kalker: Evaluation::new(&half)?,
-        before: Evaluation::new(case)?,
-        evaluation,
-        case: now,
-        stages,
-        rounds,
-        settled,
-    })
+    let clock = Instant::now();
+    let procedure = Procedure {
+        spec,
+        tasks,
+        archive,
+    };
+    let mut result = procedure.run(&open)?;
+    result.effort = Effort {
+        evaluations: archive.count(),
+        failures: archive.failures(),
+        seconds: clock.elapsed().as_secs_f64(),
+        ..Effort::default()
+    };
+    result.stopped = archive.stopped();
+    Ok(result)
 }
 
 struct Procedure<'a> {
-    space: &'a DesignSpace,
-    requirements: &'a Requirements,
-    limits: &'a Limits,
-    progress: &'a dyn Progress,
+    spec: &'a Spec,
+    tasks: Tasks<'a>,
+    archive: &'a Archive<'a>,
 }
 
-/// The profile at hand first: what it reaches tells early which others have no hope.
-fn nearest_first(choices: &[f64], conicity: f64) -> Vec<f64> {
-    let mut sorted = choices.to_vec();
-    sorted.sort_by(|a, b| (a - conicity).abs().total_cmp(&(b - conicity).abs()));
-    sorted
+/// A design found for one profile.
+struct Candidate {
+    study: Study,
+    solved: Solved,
+    conicity: f64,
 }
 
-fn bounds_of(interval: Option<Interval>) -> Option<[f64; 2]> {
-    interval.map(Into::into)
+/// A stage's result with its design, and how far it moved from where it began.
+struct Stage {
+    result: StageResult,
+    case: Case,
+    moved: f64,
+    best: Candidate,
 }
 
 impl Procedure<'_> {
-    fn ride(
-        &self,
-        direction: Direction,
-        case: &mut Case,
-        round: usize,
-    ) -> Result<StageResult, DesignError> {
-        let (space, limits) = (self.space, self.limits);
-        let (stage, bounds, required, limits, frequency) = match direction {
-            Direction::Lateral => (
-                Stage::Lateral,
-                [
-                    space.secondary_lateral_frequency,
-                    space.secondary_lateral_damping_ratio,
-                ],
-                self.requirements.lateral_acceleration,
-                ride::Limits {
-                    secondary_stroke: limits.secondary_lateral_stroke,
-                    primary_stroke: limits.primary_lateral_stroke,
-                    excursion: limits.wheelset_excursion,
-                },
-                None,
-            ),
-            Direction::Vertical => (
-                Stage::Vertical,
-                [
-                    space.secondary_vertical_frequency,
-                    space.secondary_vertical_damping_ratio,
-                ],
-                self.requirements.vertical_acceleration,
-                ride::Limits {
-                    secondary_stroke: limits.secondary_vertical_stroke,
-                    ..ride::Limits::default()
-                },
-                space.primary_vertical_frequency,
-            ),
-        };
-        // With a limit on the stroke, the least acceleration within it decides whether a required
-        // acceleration can be had; without one, the required acceleration allows the least stroke.
-        let goal = match (required, limits.secondary_stroke) {
-            (Some(acceleration), None) => ride::Goal::Stroke { acceleration },
-            _ => ride::Goal::Acceleration,
-        };
-        self.progress.stage(stage, round);
-        let problem = Ride::new(
-            direction,
-            case,
-            goal,
-            limits,
-            bounds.map(bounds_of),
-            frequency,
-        );
-        let current = problem.coordinates(case);
-        let solved = self.solve(stage, &problem, &current, round, f64::INFINITY)?;
-        *case = problem.design(&solved.solution.point.x);
-        Ok(StageResult::new(
-            stage,
-            &problem,
-            &solved,
-            current,
-            Vec::new(),
-        ))
-    }
-
-    fn stability_curving(
-        &self,
-        case: &mut Case,
-        round: usize,
-        field: &mut Option<Vec<f64>>,
-    ) -> Result<StageResult, DesignError> {
-        let goal = match (
-            self.requirements.critical_speed,
-            self.requirements.degree_curve,
-        ) {
-            (Some(critical_speed), None) => Goal::Curving { critical_speed },
-            (None, Some(degree)) => Goal::Stability { degree },
-            (Some(critical_speed), Some(degree)) => Goal::Both {
-                critical_speed,
-                degree,
-            },
-            (None, None) => return Err(DesignError::NoRequirement),
-        };
-        let stage = Stage::StabilityCurving;
-        self.progress.stage(stage, round);
-        let open = Open {
-            bending_stiffness: bounds_of(self.space.primary_bending_stiffness),
-            lateral_stiffness: bounds_of(self.space.primary_lateral_stiffness),
-            conicity: None,
-        };
-        let limits = stability_curving::Limits {
-            primary_stroke: self.limits.primary_lateral_stroke,
-            excursion: self.limits.wheelset_excursion,
-        };
-        let candidates: Vec<(Case, Open)> = match &self.space.conicity {
-            None => vec![(case.clone(), open)],
-            Some(ConicitySpace::Interval(range)) => {
-                vec![(
-                    case.clone(),
-                    Open {
-                        conicity: bounds_of(Some(*range)),
-                        ..open
-                    },
-                )]
-            }
-            Some(ConicitySpace::Choices(choices)) => {
-                nearest_first(choices, case.wheel_rail.conicity)
-                    .iter()
-                    .filter(|conicity| field.as_ref().is_none_or(|f| f.contains(conicity)))
-                    .map(|&conicity| {
-                        let mut case = case.clone();
-                        case.wheel_rail.conicity = conicity;
-                        (case, open)
-                    })
-                    .collect()
-            }
-        };
-        let mut best: Option<(StabilityCurving, Solved)> = None;
-        let mut alternatives: Vec<Alternative> = Vec::new();
-        for (candidate, open) in &candidates {
-            let problem = StabilityCurving::new(candidate, goal, limits, *open);
-            let solved = {
-                // What the best profile so far has reached within its constraints.
-                let beat =
-                    best.as_ref()
-                        .map_or(f64::INFINITY, |(_, b)| match &b.solution.point.values {
-                            Ok(values) if values.violation() <= FEASIBLE => values.objective(),
-                            _ => f64::INFINITY,
-                        });
-                self.solve(stage, &problem, &problem.coordinates(case), round, beat)?
-            };
-            alternatives.push(stability_curving::alternative(&problem, &solved));
-            if best
-                .as_ref()
-                .is_none_or(|(_, b)| solved.solution.point.better_than(&b.solution.point))
-            {
-                best = Some((problem, solved));
-            }
+    fn run(&self, open: &[TradeOff]) -> Result<DesignResult, DesignError> {
+        let joint_only = self.spec.design.order == Order::Joint || !self.spec.objective.is_empty();
+        if joint_only {
+            let task = |case: &Case| self.tasks.joint(case);
+            let stage = self.stage(&self.spec.case, None, &task, None, &[])?;
+            return self.finish(stage.case, vec![stage.result], 0, true, &stage.best, None);
         }
-        alternatives.sort_by(|a, b| a.conicity.total_cmp(&b.conicity));
-        let Some((problem, solved)) = best else {
-            return Err(DesignError::NothingOpen);
-        };
-        // Later rounds change little: only profiles nearly as good as the best stay in the race.
-        field.get_or_insert_with(|| stability_curving::field(&alternatives, goal));
-        let current = problem.coordinates(case);
-        *case = problem.design(&solved.solution.point.x);
-        if candidates.len() < 2 && round == 0 {
-            alternatives.clear();
-        }
-        Ok(StageResult::new(
-            stage,
-            &problem,
-            &solved,
-            current,
-            alternatives,
-        ))
-    }
-
-    /// The first round searches everywhere; later ones near what the first found.
-    fn solve(
-        &self,
-        stage: Stage,
-        problem: &dyn Problem,
-        current: &[f64],
-        round: usize,
-        beat: f64,
-    ) -> Result<Solved, DesignError> {
-        let near = [current.to_vec()];
-        let start = if round == 0 {
-            Start::Everywhere {
-                seed: self.space.seed,
-                also: &near,
-                beat,
-            }
+        let (stages, rounds, settled) = self.sequential(open)?;
+        let last = stages.last().expect("something is open");
+        let case = last.case.clone();
+        let joint = if open.len() > 1 && self.archive.stopped().is_none() {
+            Some(self.joint(&case)?)
         } else {
-            Start::Near(current)
+            None
         };
-        solve(problem, start, self.progress)
-            .map_err(|failure| DesignError::NothingEvaluated { stage, failure })
+        // The conflict, if there is one, is that of the stage that fell short.
+        let short = stages
+            .iter()
+            .find(|s| s.best.solved.status == Status::Infeasible)
+            .unwrap_or(last);
+        let best = Candidate {
+            study: short.best.study.clone(),
+            solved: short.best.solved.clone(),
+            conicity: short.best.conicity,
+        };
+        let results = stages.into_iter().map(|s| s.result).collect();
+        self.finish(case, results, rounds, settled, &best, joint)
+    }
+
+    /// The report's order: the stages with their last results, and the rounds taken.
+    fn sequential(&self, open: &[TradeOff]) -> Result<(Vec<Stage>, usize, bool), DesignError> {
+        let mut now = self.spec.case.clone();
+        let mut stages: Vec<Stage> = Vec::new();
+        let coupled: Vec<TradeOff> = open
+            .iter()
+            .copied()
+            .filter(|t| *t != TradeOff::Vertical)
+            .collect();
+        if open.contains(&TradeOff::Vertical) {
+            let stage = self.trade_off(&now, TradeOff::Vertical, None, 0)?;
+            now = stage.case.clone();
+            stages.push(stage);
+        }
+        let mut rounds = 0;
+        let mut settled = coupled.is_empty();
+        while !settled && rounds < ROUNDS && self.archive.stopped().is_none() {
+            let mut moved: f64 = 0.0;
+            for trade_off in &coupled {
+                let at = stages
+                    .iter()
+                    .position(|s| s.result.trade_off == Some(*trade_off));
+                let mut stage = {
+                    let known = at.map(|i| &stages[i].result);
+                    self.trade_off(&now, *trade_off, known, rounds)?
+                };
+                moved = moved.max(stage.moved);
+                now = stage.case.clone();
+                match at {
+                    Some(i) => {
+                        stage.result.absorb(&stages[i].result);
+                        stages[i] = stage;
+                    }
+                    None => stages.push(stage),
+                }
+            }
+            rounds += 1;
+            settled = moved < UNCHANGED || coupled.len() < 2;
+        }
+        // The last stage knows the design as all have left it.
+        if let Some(last) = stages.last_mut() {
+            last.case = now;
+        }
+        Ok((stages, rounds, settled))
+    }
+
+    fn trade_off(
+        &self,
+        now: &Case,
+        trade_off: TradeOff,
+        known: Option<&StageResult>,
+        round: usize,
+    ) -> Result<Stage, DesignError> {
+        self.archive
+            .stage(&format!("{trade_off}, round {}", round + 1));
+        let task = |case: &Case| self.tasks.trade_off(case, trade_off);
+        self.stage(now, Some(trade_off), &task, known, &[])
+    }
+
+    /// All at once, from the sequential design and from everywhere.
+    fn joint(&self, sequential: &Case) -> Result<Joint, DesignError> {
+        self.archive.stage("all at once");
+        let task = |case: &Case| self.tasks.joint(case);
+        let stage = self.stage(
+            sequential,
+            None,
+            &task,
+            None,
+            std::slice::from_ref(sequential),
+        )?;
+        let study = &stage.best.study;
+        let before = study.evaluate(&study.coordinates(sequential));
+        let after = &stage.best.solved.point.values;
+        let mut indices: Vec<Index> = Vec::new();
+        for term in study.terms() {
+            if matches!(term.role, Role::Objective { .. }) && !indices.contains(&term.index) {
+                indices.push(term.index);
+            }
+        }
+        let merit = |values: &Result<Values, _>| match values {
+            Ok(values) => values.objective(),
+            Err(_) => f64::NAN,
+        };
+        Ok(Joint {
+            gain: merit(&before) - merit(after),
+            indices: indices
+                .into_iter()
+                .map(|index| Compared {
+                    index,
+                    sequential: value(sequential, index),
+                    joint: value(&stage.case, index),
+                })
+                .collect(),
+            stage: stage.result,
+            case: stage.case,
+        })
+    }
+
+    /// Solves a task for every profile to choose from, or only those still in the race.
+    fn stage(
+        &self,
+        now: &Case,
+        trade_off: Option<TradeOff>,
+        task: &dyn Fn(&Case) -> Task,
+        known: Option<&StageResult>,
+        also: &[Case],
+    ) -> Result<Stage, DesignError> {
+        let fail = |reason| DesignError::NothingEvaluated { trade_off, reason };
+        let chooses = matches!(trade_off, None | Some(TradeOff::StabilityCurving));
+        let choices = match (chooses, known) {
+            (false, _) => vec![now.wheel_rail.conicity],
+            (true, None) => self.tasks.profiles(now),
+            (true, Some(known)) => in_the_race(known, self.tasks.profiles(now)),
+        };
+        let mut best: Option<Candidate> = None;
+        let mut profiles = Vec::new();
+        let mut effort = Effort::default();
+        let mut failure = None;
+        for conicity in choices {
+            let mut case = now.clone();
+            case.wheel_rail.conicity = conicity;
+            let Task { study, .. } = task(&case);
+            let current = study.coordinates(now);
+            // All at once only the profiles that may win matter; in turn the table shows each.
+            let mut start = match known {
+                None => Start::everywhere(self.spec.design.seed).with(vec![current.clone()]),
+                Some(known) => {
+                    let own = known.profiles.iter().find(|p| same(p.conicity, conicity));
+                    Start::near(vec![own.map_or(current.clone(), |p| p.x.clone())])
+                }
+            };
+            start = start.with(also.iter().map(|case| study.coordinates(case)).collect());
+            start.gives_up = trade_off.is_none();
+            if let Some(best) = &best
+                && best.solved.point.feasible()
+                && let Ok(values) = &best.solved.point.values
+            {
+                start.beat = values.objective();
+            }
+            match search(&study, &start, self.archive) {
+                Ok(solved) => {
+                    profiles.push(profile(&study, &solved));
+                    effort.add(&solved.effort);
+                    let better = best
+                        .as_ref()
+                        .is_none_or(|b| solved.point.better_than(&b.solved.point));
+                    if better {
+                        best = Some(Candidate {
+                            study,
+                            solved,
+                            conicity,
+                        });
+                    }
+                }
+                Err(reason) => failure = Some(reason),
+            }
+            if self.archive.stopped().is_some() {
+                break;
+            }
+        }
+        let Some(best) = best else {
+            return Err(fail(failure.unwrap_or(NoDesign::Failed(
+                crate::optimize::problem::Failure::NotFinite,
+            ))));
+        };
+        let case = best.study.design(&best.solved.point.x);
+        let before = best.study.coordinates(now);
+        let moved = best
+            .solved
+            .point
+            .x
+            .iter()
+            .zip(&before)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
+        let moved = if same(best.conicity, now.wheel_rail.conicity) {
+            moved
+        } else {
+            1.0
+        };
+        let goal = task(now).goal;
+        let mut explained = Explained::new(&best.study, &best.solved, goal);
+        explained.effort.evaluations = effort.evaluations;
+        explained.effort.failures = effort.failures;
+        profiles.sort_by(|a, b| a.conicity.total_cmp(&b.conicity));
+        Ok(Stage {
+            result: StageResult {
+                trade_off,
+                explained,
+                profiles,
+            },
+            case,
+            moved,
+            best,
+        })
+    }
+
+    fn finish(
+        &self,
+        case: Case,
+        mut stages: Vec<StageResult>,
+        rounds: usize,
+        settled: bool,
+        best: &Candidate,
+        joint: Option<Joint>,
+    ) -> Result<DesignResult, DesignError> {
+        for stage in &mut stages {
+            if stage.profiles.len() < 2 {
+                stage.profiles.clear();
+            }
+        }
+        let spec = self.spec;
+        let evaluation = Evaluation::new(&case)?;
+        let mut half = case.clone();
+        half.wheel_rail.creep_factor *= 0.5;
+        let conditions = spec.conditions.iter().map(|condition| {
+            let case = condition.apply(&case);
+            Ok(InCondition {
+                name: condition.name.clone(),
+                evaluation: Evaluation::new(&case)?,
+                case,
+            })
+        });
+        let margins = margins(&case, &spec.demands, &spec.conditions);
+        let short = margins.iter().any(|m| !m.met());
+        let conflict = if short && best.solved.status == Status::Infeasible {
+            self.archive.stage("conflicting requirements");
+            conflict(
+                &best.study,
+                &best.solved.point.x,
+                spec.design.seed,
+                self.archive,
+            )
+        } else {
+            None
+        };
+        Ok(DesignResult {
+            half_kalker: Evaluation::new(&half)?,
+            before: Evaluation::new(&spec.case)?,
+            conditions: conditions.collect::<Result<_, EigenError>>()?,
+            evaluation,
+            case,
+            stages,
+            rounds,
+            settled,
+            joint,
+            margins,
+            conflict,
+            effort: Effort::default(),
+            stopped: None,
+        })
+    }
+}
+
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 0.0
+}
+
+/// What the profile of a solved study allows.
+fn profile(study: &Study, solved: &Solved) -> Profile {
+    let case = study.design(&solved.point.x);
+    let stability = Stability::search(&LateralModel::new(&case), case.model.speed_range);
+    Profile {
+        conicity: case.wheel_rail.conicity,
+        status: solved.status,
+        critical_speed: stability.ok().and_then(|s| s.critical_speed()),
+        degree: CurvingLimits::new(&case, 0.0).map_or(0.0, |limits| limits.degree()),
+        bending_stiffness: case.vehicle.bending_stiffness(),
+        lateral_stiffness: case.vehicle.suspension.primary.lateral_stiffness,
+        x: solved.point.x.clone(),
+        rank: match &solved.point.values {
+            Ok(values) if values.feasible() => (0, values.objective()),
+            Ok(values) => (1, values.violation()),
+            Err(_) => (2, 0.0),
+        },
+    }
+}
+
+/// Profiles nearly as good as the best: later rounds change little.
+fn in_the_race(known: &StageResult, all: Vec<f64>) -> Vec<f64> {
+    let best = known
+        .profiles
+        .iter()
+        .map(|p| p.rank)
+        .min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let near =
+        |p: &Profile| best.is_some_and(|(class, rank)| p.rank.0 == class && p.rank.1 < rank + RACE);
+    all.into_iter()
+        .filter(|c| {
+            known
+                .profiles
+                .iter()
+                .any(|p| same(p.conicity, *c) && near(p))
+        })
+        .collect()
+}
+
+impl StageResult {
+    /// Adds what an earlier round spent, and its profiles that left the race.
+    fn absorb(&mut self, earlier: &Self) {
+        let first = &earlier.explained.effort;
+        self.explained.effort.add(first);
+        // The first round looked everywhere; later ones follow.
+        self.explained.effort.starts = first.starts;
+        self.explained.effort.agreed = first.agreed;
+        for profile in &earlier.profiles {
+            if !self
+                .profiles
+                .iter()
+                .any(|p| same(p.conicity, profile.conicity))
+            {
+                self.profiles.push(profile.clone());
+            }
+        }
+        self.profiles
+            .sort_by(|a, b| a.conicity.total_cmp(&b.conicity));
     }
 }

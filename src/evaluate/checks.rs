@@ -1,9 +1,12 @@
 //! Comparison of a design with the constraints of 3.3 and the separations of 3.5.3 and 4.3.
 
-use super::{Evaluation, curving::CurvingState, equalization::wheel_load_changes, limits};
+use super::{
+    Evaluation, curving::CurvingState, equalization::wheel_load_changes, limits,
+    vertical_modes::flexible_separations,
+};
 use crate::{
     case::Case, closed_form::natural_frequencies as closed, track::SUPERELEVATION_BASE,
-    units::Quantity,
+    units::Quantity, vehicle::Vehicle,
 };
 
 /// One constraint and how the design stands to it.
@@ -37,8 +40,6 @@ impl Check {
 
 /// A design that an optimiser put on a limit may miss it by this share.
 const ROUNDING: f64 = 1e-5;
-/// Standard deviations taken as the peak of a random motion (3.3.4).
-const PEAK: f64 = 3.0;
 
 /// All checks that apply to an evaluated case.
 pub fn checks(case: &Case, evaluation: &Evaluation) -> Vec<Check> {
@@ -46,7 +47,7 @@ pub fn checks(case: &Case, evaluation: &Evaluation) -> Vec<Check> {
     strokes(&mut list, evaluation);
     curving(&mut list, case, evaluation);
     equalization(&mut list, case);
-    separations(&mut list, case, evaluation);
+    frequencies(&mut list, case, evaluation);
     list
 }
 
@@ -68,7 +69,7 @@ fn at_most(
 }
 
 fn peak(rms: &[f64]) -> f64 {
-    PEAK * rms.iter().copied().fold(0.0, f64::max)
+    limits::PEAK * rms.iter().copied().fold(0.0, f64::max)
 }
 
 fn strokes(list: &mut Vec<Check>, evaluation: &Evaluation) {
@@ -194,37 +195,47 @@ fn equalization(list: &mut Vec<Check>, case: &Case) {
     }
 }
 
-/// Factor of two between truck frame and carbody frequencies (3.5.3), and of the truck's vertical
-/// modes from the carbody's flexible ones (4.3).
-fn separations(list: &mut Vec<Check>, case: &Case, evaluation: &Evaluation) {
-    let vehicle = &case.vehicle;
+/// Ratios of truck frame to carbody natural frequencies (3.5-6 … 3.5-15); none where the carbody
+/// overturns.
+pub fn separations(vehicle: &Vehicle) -> [(&'static str, Option<f64>); 5] {
     let pairs = [
         (
             "lateral",
-            Some(closed::truck_lateral(vehicle)),
+            closed::truck_lateral(vehicle),
             Some(closed::carbody_lateral(vehicle)),
         ),
         (
             "vertical",
-            Some(closed::truck_vertical(vehicle)),
+            closed::truck_vertical(vehicle),
             Some(closed::carbody_vertical(vehicle)),
         ),
         (
             "roll",
-            Some(closed::truck_roll(vehicle)),
+            closed::truck_roll(vehicle),
             closed::carbody_roll(vehicle),
         ),
         (
             "yaw",
-            Some(closed::truck_yaw(vehicle)),
+            closed::truck_yaw(vehicle),
             Some(closed::carbody_yaw(vehicle)),
         ),
         (
             "pitch",
-            Some(closed::truck_pitch(vehicle)),
+            closed::truck_pitch(vehicle),
             Some(closed::carbody_pitch(vehicle)),
         ),
     ];
+    pairs.map(|(name, truck, carbody)| {
+        (
+            name,
+            carbody.map(|carbody| truck.frequency / carbody.frequency),
+        )
+    })
+}
+
+/// Factor of two between truck frame and carbody frequencies (3.5.3), and of the truck's vertical
+/// modes from the carbody's flexible ones (4.3).
+fn frequencies(list: &mut Vec<Check>, case: &Case, evaluation: &Evaluation) {
     let at_least = |name, source, value, limit| Check {
         name,
         source,
@@ -233,35 +244,19 @@ fn separations(list: &mut Vec<Check>, case: &Case, evaluation: &Evaluation) {
         limit,
         at_least: true,
     };
-    for (name, truck, carbody) in pairs {
-        if let (Some(truck), Some(carbody)) = (truck, carbody) {
+    for (name, ratio) in separations(&case.vehicle) {
+        if let Some(ratio) = ratio {
             let name = format!("truck over carbody frequency, {name}");
-            list.push(at_least(
-                name,
-                "3.5.3",
-                truck.frequency / carbody.frequency,
-                limits::SEPARATION,
-            ));
+            list.push(at_least(name, "3.5.3", ratio, limits::SEPARATION));
         }
     }
-    let nearest = evaluation
-        .vertical_modes
-        .iter()
-        .filter(|m| m.shape.is_flexible())
-        .flat_map(|flexible| {
-            evaluation
-                .vertical_modes
-                .iter()
-                .filter(|m| m.shape.is_truck())
-                .map(move |truck| {
-                    let ratio = truck.frequency / flexible.frequency;
-                    (ratio.max(1.0 / ratio), truck.shape, flexible.shape)
-                })
-        })
-        .min_by(|a, b| a.0.total_cmp(&b.0));
-    if let Some((ratio, truck, flexible)) = nearest {
+    let nearest = flexible_separations(&evaluation.vertical_modes)
+        .into_iter()
+        .min_by(|a, b| a.ratio.total_cmp(&b.ratio));
+    if let Some(nearest) = nearest {
+        let [truck, flexible] = nearest.shapes;
         // 4.3 asks that they do not align and gives no number: 10 % apart keeps their peaks apart.
         let name = format!("{truck} against {flexible}, frequency ratio");
-        list.push(at_least(name, "4.3", ratio, 1.1));
+        list.push(at_least(name, "4.3", nearest.ratio, 1.1));
     }
 }

@@ -269,17 +269,23 @@ impl CurvingState {
             / wheels.iter().map(|w| w.vertical).sum::<f64>()
     }
 
-    /// Largest L/V of any truck side.
-    pub fn truck_side_lateral_to_vertical(&self) -> f64 {
+    /// L/V of all truck sides, signed outward: outer and inner of truck 1, then of truck 2.
+    pub fn truck_sides(&self) -> [f64; 4] {
         [
             (0, Side::Outer),
             (0, Side::Inner),
             (1, Side::Outer),
             (1, Side::Inner),
         ]
-        .into_iter()
-        .map(|(j, side)| self.truck_side(j, side).abs())
-        .fold(0.0, f64::max)
+        .map(|(j, side)| self.truck_side(j, side))
+    }
+
+    /// Largest L/V of any truck side.
+    pub fn truck_side_lateral_to_vertical(&self) -> f64 {
+        self.truck_sides()
+            .map(f64::abs)
+            .into_iter()
+            .fold(0.0, f64::max)
     }
 
     /// Net lateral force over vertical load of axle `i`.

@@ -2,6 +2,8 @@
 
 use crate::units::us::INCH;
 
+/// Standard deviations taken as the peak of a random motion (3.3.4).
+pub const PEAK: f64 = 3.0;
 /// Primary suspension stops, zero to peak, lateral, longitudinal and vertical alike, m: 3/8 in
 /// (4.7), printed as 0.95 cm in 3.3.4.
 pub const PRIMARY_STOP: f64 = 0.375 * INCH;

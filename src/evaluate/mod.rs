@@ -4,6 +4,7 @@ pub mod checks;
 pub mod critical_speed;
 pub mod cross_checks;
 pub mod curving;
+pub mod damping_range;
 pub mod equalization;
 mod followed_modes;
 mod hopf;

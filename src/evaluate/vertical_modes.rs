@@ -118,3 +118,35 @@ pub fn vertical_modes(model: &VerticalModel) -> Result<Vec<VerticalMode>, EigenE
     modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
     Ok(modes)
 }
+
+/// How far a truck mode is from a flexible mode of the carbody.
+#[derive(Debug, Clone, Copy)]
+pub struct Separation {
+    /// Frequency of the truck mode, Hz.
+    pub truck: f64,
+    /// Frequency of the flexible mode, Hz.
+    pub flexible: f64,
+    /// The higher over the lower.
+    pub ratio: f64,
+    /// What the two do.
+    pub shapes: [VerticalShape; 2],
+}
+
+/// Separations of every truck mode from every flexible mode (4.3).
+pub fn flexible_separations(modes: &[VerticalMode]) -> Vec<Separation> {
+    let flexible = modes.iter().filter(|m| m.shape.is_flexible());
+    flexible
+        .flat_map(|flexible| {
+            let trucks = modes.iter().filter(|m| m.shape.is_truck());
+            trucks.map(move |truck| {
+                let ratio = truck.frequency / flexible.frequency;
+                Separation {
+                    truck: truck.frequency,
+                    flexible: flexible.frequency,
+                    ratio: ratio.max(1.0 / ratio),
+                    shapes: [truck.shape, flexible.shape],
+                }
+            })
+        })
+        .collect()
+}

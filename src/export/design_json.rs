@@ -1,123 +1,225 @@
-//! A finished design as JSON: SI throughout, the unit in the key.
+//! A finished design as JSON: SI throughout, the unit in the key. What is here depends on the spec
+//! alone: no times, nothing of the machine.
+
+use std::collections::BTreeMap;
 
 use serde_json::{Map, Value, json};
 
 use super::{design_text::status, evaluation_json};
 use crate::{
     design::{
+        explain::{Bound, Chosen, Explained, Price},
         form::form,
-        outcome::{Alternative, Bound, DesignResult, StageResult},
+        margin::Margin,
+        outcome::{DesignResult, Profile, StageResult},
     },
     evaluate::checks::checks,
-    spec::{DesignSpace, Limits, Requirements},
+    optimize::{certificate::Curvature, problem::Failure},
+    spec::Spec,
 };
 
 /// Everything that `bogie optimize --format json` writes.
 pub fn design(
     name: &str,
     result: &DesignResult,
-    space: &DesignSpace,
-    requirements: &Requirements,
-    limits: &Limits,
+    spec: &Spec,
+    digest: &str,
     warnings: &[String],
 ) -> Value {
     let mut object = Map::new();
-    object.insert(
-        "program".into(),
+    let mut insert = |key: &str, value: Value| object.insert(key.into(), value);
+    insert(
+        "program",
         json!(concat!("bogie ", env!("CARGO_PKG_VERSION"))),
     );
-    object.insert("name".into(), json!(name));
-    object.insert("seed".into(), json!(space.seed));
-    object.insert("requirements_met".into(), json!(result.unmet.is_empty()));
-    object.insert(
-        "unmet".into(),
-        json!(
-            result
-                .unmet
-                .iter()
-                .map(|u| json!({
-                    "key": u.key,
-                    "required_si": u.required,
-                    "reached_si": u.reached,
-                }))
-                .collect::<Vec<_>>()
-        ),
-    );
-    object.insert("coupling_rounds".into(), json!(result.rounds));
-    object.insert("coupling_settled".into(), json!(result.settled));
-    object.insert(
-        "trade_offs".into(),
-        json!(result.stages.iter().map(stage).collect::<Vec<_>>()),
-    );
-    object.insert("design_si".into(), evaluation_json::inputs(&result.case));
-    object.insert("speed_m_per_s".into(), json!(result.case.service.speed));
-    object.insert("track".into(), json!(result.case.service.track.name));
+    insert("name", json!(name));
+    insert("spec_sha256", json!(digest));
+    insert("seed", json!(spec.design.seed));
+    insert("requirements_met", json!(result.met()));
+    insert("stopped", json!(result.stopped.map(|s| s.to_string())));
+    let unmet: Vec<Value> = result.unmet().map(margin).collect();
+    insert("unmet", json!(unmet));
+    insert("margins", result.margins.iter().map(margin).collect());
+    insert("conflict", conflict(result));
+    insert("coupling_rounds", json!(result.rounds));
+    insert("coupling_settled", json!(result.settled));
+    insert("trade_offs", result.stages.iter().map(stage).collect());
+    insert("joint", joint(result));
+    insert("evaluations", json!(result.effort.evaluations));
+    insert("failed_evaluations", failures_of(&result.effort.failures));
+    insert("design_si", evaluation_json::inputs(&result.case));
+    insert("speed_m_per_s", json!(result.case.service.speed));
+    insert("track", json!(result.case.service.track.name));
     object.extend(evaluation_json::indices(&result.case, &result.evaluation));
-    object.insert(
-        "checks".into(),
-        json!(
-            checks(&result.case, &result.evaluation)
-                .iter()
-                .map(evaluation_json::check)
-                .collect::<Vec<_>>()
-        ),
+    let mut insert = |key: &str, value: Value| object.insert(key.into(), value);
+    let checks = checks(&result.case, &result.evaluation);
+    insert(
+        "checks",
+        checks.iter().map(evaluation_json::check).collect(),
     );
-    object.insert(
-        "as_given".into(),
+    insert(
+        "as_given",
         Value::Object(evaluation_json::indices(&result.case, &result.before)),
     );
-    object.insert(
-        "half_kalker".into(),
+    insert(
+        "half_kalker",
         Value::Object(evaluation_json::indices(&result.case, &result.half_kalker)),
     );
-    object.insert(
-        "design_form".into(),
-        json!(
-            form(result, requirements, limits)
-                .iter()
-                .map(|line| json!({
-                    "step": line.step,
-                    "entry": line.text,
-                    "symbol": line.symbol,
-                    "value_si": line.value,
-                }))
-                .collect::<Vec<_>>()
-        ),
-    );
-    object.insert("warnings".into(), json!(warnings));
+    let conditions = result.conditions.iter().map(|c| {
+        let mut indices = evaluation_json::indices(&c.case, &c.evaluation);
+        indices.insert("condition".into(), json!(c.name));
+        Value::Object(indices)
+    });
+    insert("conditions", conditions.collect());
+    let lines = form(result, &spec.demands);
+    let lines = lines.iter().map(|line| {
+        json!({
+            "step": line.step,
+            "entry": line.text,
+            "symbol": line.symbol,
+            "value_si": line.value,
+        })
+    });
+    insert("design_form", lines.collect());
+    insert("warnings", json!(warnings));
     Value::Object(object)
 }
 
-fn stage(stage: &StageResult) -> Value {
+fn margin(margin: &Margin) -> Value {
     json!({
-        "trade_off": stage.stage.to_string(),
-        "goal": stage.goal,
-        "status": status(stage.status),
-        "kkt_residual": stage.kkt_residual,
-        "evaluations": stage.evaluations,
-        "failed_evaluations": stage.failed,
-        "variables": stage.chosen.iter().map(|c| json!({
-            "name": c.variable.name,
-            "symbol": c.variable.symbol,
-            "value_si": c.value,
-            "bounds_si": c.variable.bounds,
-            "at_bound": c.at_bound.map(|b| match b {
-                Bound::Lower => "lower",
-                Bound::Upper => "upper",
-            }),
-        })).collect::<Vec<_>>(),
-        "active": stage.active,
-        "profiles": stage.alternatives.iter().map(alternative).collect::<Vec<_>>(),
+        "key": margin.key(),
+        "condition": margin.condition,
+        "required_si": margin.required,
+        "reached_si": margin.reached.as_ref().ok(),
+        "failure": margin.reached.as_ref().err(),
+        "met": margin.met(),
     })
 }
 
-fn alternative(a: &Alternative) -> Value {
+pub(super) fn failures_of(failures: &BTreeMap<Failure, usize>) -> Value {
+    let failures = failures.iter();
+    failures
+        .map(|(failure, count)| {
+            let name = serde_json::to_value(failure).unwrap_or_default();
+            json!({ "reason": name, "count": count })
+        })
+        .collect()
+}
+
+pub(super) fn stage(stage: &StageResult) -> Value {
+    let Explained {
+        goal,
+        objective,
+        merit,
+        chosen,
+        active,
+        prices,
+        effort,
+        ..
+    } = &stage.explained;
     json!({
-        "conicity": a.conicity,
-        "status": status(a.status),
-        "critical_speed_m_per_s": a.critical_speed,
-        "degree_curve_deg": a.degree,
-        "bending_stiffness_n_m_per_rad": a.bending_stiffness,
-        "lateral_stiffness_n_per_m": a.lateral_stiffness,
+        "trade_off": stage.trade_off.map_or_else(|| "all at once".into(), |t| t.to_string()),
+        "goal": goal,
+        "objective": objective.map(|(index, value)| json!({
+            "index": index.name(),
+            "value_si": value,
+        })),
+        "merit": merit,
+        "status": status(stage.explained.status),
+        "kkt_residual": stage.explained.kkt_residual,
+        "largest_violation": stage.explained.violation,
+        "second_order": stage.explained.curvature.map(curvature),
+        "starts": effort.starts,
+        "starts_agreed": effort.agreed,
+        "evaluations": effort.evaluations,
+        "failed_evaluations": effort.failed(),
+        "failures": failures_of(&effort.failures),
+        "variables": chosen.iter().map(variable).collect::<Vec<_>>(),
+        "active": active,
+        "prices": prices.iter().map(|p| price(&stage.explained, p)).collect::<Vec<_>>(),
+        "profiles": stage.profiles.iter().map(profile).collect::<Vec<_>>(),
+    })
+}
+
+fn curvature(curvature: Curvature) -> Value {
+    let (kind, least) = match curvature {
+        Curvature::Vertex => ("vertex", None),
+        Curvature::Minimum(least) => ("minimum", Some(least)),
+        Curvature::Flat(least) => ("flat", Some(least)),
+        Curvature::Saddle(least) => ("saddle", Some(least)),
+    };
+    json!({ "kind": kind, "least_curvature": least })
+}
+
+fn variable(c: &Chosen) -> Value {
+    json!({
+        "key": c.parameter.name(),
+        "name": c.variable.name,
+        "symbol": c.variable.symbol,
+        "value_si": c.value,
+        "bounds_si": c.variable.bounds,
+        "at_bound": c.at_bound.map(|b| match b {
+            Bound::Lower => "lower",
+            Bound::Upper => "upper",
+        }),
+        "bound_price": c.bound_price,
+        "objective_elasticity": c.elasticity,
+    })
+}
+
+fn price(explained: &Explained, price: &Price) -> Value {
+    json!({
+        "key": price.index.path(),
+        "condition": price.condition,
+        "bound_si": price.bound,
+        "multiplier": price.multiplier,
+        "objective_change_per_si_unit": explained.price(price),
+        "elasticities": price.elasticities,
+    })
+}
+
+fn profile(p: &Profile) -> Value {
+    json!({
+        "conicity": p.conicity,
+        "status": status(p.status),
+        "critical_speed_m_per_s": p.critical_speed,
+        "degree_curve_deg": p.degree,
+        "bending_stiffness_n_m_per_rad": p.bending_stiffness,
+        "lateral_stiffness_n_per_m": p.lateral_stiffness,
+    })
+}
+
+fn conflict(result: &DesignResult) -> Value {
+    let Some(conflict) = &result.conflict else {
+        return Value::Null;
+    };
+    let demands = conflict.demands.iter().map(|opposed| {
+        json!({
+            "key": opposed.index.path(),
+            "condition": opposed.condition,
+            "required_si": opposed.required,
+            "share": opposed.share,
+            "feasible_alone_at_si": opposed.alone,
+        })
+    });
+    demands.collect()
+}
+
+fn joint(result: &DesignResult) -> Value {
+    let Some(joint) = &result.joint else {
+        return Value::Null;
+    };
+    let indices = joint.indices.iter().map(|compared| {
+        json!({
+            "index": compared.index.name(),
+            "sequential_si": compared.sequential.as_ref().ok(),
+            "joint_si": compared.joint.as_ref().ok(),
+        })
+    });
+    json!({
+        "gain": joint.gain,
+        "indices": indices.collect::<Vec<_>>(),
+        "solution": stage(&joint.stage),
+        "design_si": evaluation_json::inputs(&joint.case),
     })
 }

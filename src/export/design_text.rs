@@ -1,75 +1,95 @@
 //! A finished design as the page that a designer hands on.
 
 use super::{
+    certificate::{certificate, conflict, joint, margins},
     evaluation_text::{constraint_table, stability, title},
     number::{both, significant},
     sheet::Sheet,
 };
 use crate::{
     design::{
+        explain::Bound,
         form::{Line, form},
-        local::Status,
-        outcome::{Bound, DesignResult, StageResult},
+        outcome::{DesignResult, Profile, StageResult},
     },
-    evaluate::{Evaluation, checks::checks},
-    spec::{Limits, Requirements},
+    evaluate::{
+        Evaluation,
+        checks::checks,
+        curving::CurvingLimits,
+        ride::{LateralRide, VerticalRide},
+    },
+    index::Demands,
+    optimize::local::Status,
+    parameter::TradeOff,
     units::Quantity,
     vehicle::GRAVITY,
 };
 
 /// Everything that `bogie optimize` prints.
-pub fn design(
-    name: &str,
-    result: &DesignResult,
-    requirements: &Requirements,
-    limits: &Limits,
-    warnings: &[String],
-) -> String {
+pub fn design(name: &str, result: &DesignResult, demands: &Demands, warnings: &[String]) -> String {
     let mut sheet = Sheet::new(&title(name, &result.case));
     for warning in warnings {
         sheet.line(&format!("warning: {warning}"));
     }
     verdict(&mut sheet, result);
+    conflict(&mut sheet, result);
     for stage in &result.stages {
         trade_off(&mut sheet, stage);
     }
+    joint(&mut sheet, result);
+    margins(&mut sheet, &result.margins);
     performance(&mut sheet, result);
     stability(&mut sheet, &result.evaluation);
     constraint_table(&mut sheet, &checks(&result.case, &result.evaluation));
     sheet.heading("Design form (Table 4.6.1)");
-    let rows: Vec<Vec<String>> = form(result, requirements, limits)
-        .iter()
-        .map(form_row)
-        .collect();
+    let rows: Vec<Vec<String>> = form(result, demands).iter().map(form_row).collect();
     sheet.table(&["step", "", "", "SI", "US"], &[1, 2], &rows);
+    let failed = match result.effort.failed() {
+        0 => String::new(),
+        n => format!(", {n} of them without a result"),
+    };
+    sheet.heading(&format!(
+        "{} full-model evaluations{failed}, {} s",
+        result.effort.evaluations,
+        significant(result.effort.seconds, 2)
+    ));
     sheet.finish()
 }
 
+/// A value in both unit systems, as in "320 km/h (200 mph)".
+pub(super) fn value(quantity: Quantity, si: f64) -> String {
+    let [si, us] = both(quantity, si);
+    if us.is_empty() {
+        si
+    } else {
+        format!("{si} ({us})")
+    }
+}
+
 fn verdict(sheet: &mut Sheet, result: &DesignResult) {
-    if result.unmet.is_empty() {
+    if let Some(stop) = result.stopped {
+        sheet.heading(&format!(
+            "Ended early, {stop}: this is the best found so far."
+        ));
+    }
+    if result.met() {
         sheet.heading("All requirements and limits are met.");
     } else {
         sheet.heading("Not everything can be met; this is the best compromise:");
-        for unmet in &result.unmet {
-            let value = |si: f64| {
-                let [si, us] = both(unmet.quantity, si);
-                if us.is_empty() {
-                    si
-                } else {
-                    format!("{si} ({us})")
-                }
+        for unmet in result.unmet() {
+            let quantity = unmet.index.quantity();
+            let reached = match &unmet.reached {
+                Ok(si) => value(quantity, *si),
+                Err(failure) => format!("none: {failure}"),
             };
-            let reached = unmet
-                .reached
-                .map_or_else(|| "none: unstable at the operating speed".into(), value);
             sheet.line(&format!(
                 "{}: asked {}, reached {reached}",
-                unmet.key,
-                value(unmet.required)
+                unmet.key(),
+                value(quantity, unmet.required)
             ));
         }
     }
-    if !result.settled {
+    if !result.settled && result.stopped.is_none() {
         sheet.line(&format!(
             "The coupling loop still changed the design after {} rounds.",
             result.rounds
@@ -77,13 +97,23 @@ fn verdict(sheet: &mut Sheet, result: &DesignResult) {
     }
 }
 
-fn trade_off(sheet: &mut Sheet, stage: &StageResult) {
-    let mut name = stage.stage.to_string();
+/// Name of a trade-off as a heading.
+pub(super) fn stage_name(trade_off: Option<TradeOff>) -> String {
+    let mut name = trade_off.map_or_else(|| "all at once".into(), |t| t.to_string());
     if let Some(first) = name.get_mut(0..1) {
         first.make_ascii_uppercase();
     }
-    sheet.heading(&format!("{name}: {}", stage.goal));
-    let rows: Vec<Vec<String>> = stage
+    name
+}
+
+pub(super) fn trade_off(sheet: &mut Sheet, stage: &StageResult) {
+    let explained = &stage.explained;
+    sheet.heading(&format!(
+        "{}: {}",
+        stage_name(stage.trade_off),
+        explained.goal
+    ));
+    let rows: Vec<Vec<String>> = explained
         .chosen
         .iter()
         .map(|chosen| {
@@ -103,38 +133,12 @@ fn trade_off(sheet: &mut Sheet, stage: &StageResult) {
         })
         .collect();
     sheet.table(&[], &[1, 4], &rows);
-    if !stage.active.is_empty() {
-        sheet.line(&format!("held back by: {}", stage.active.join("; ")));
+    if !explained.active.is_empty() {
+        sheet.line(&format!("held back by: {}", explained.active.join("; ")));
     }
-    let failed = if stage.failed > 0 {
-        format!(", {} without a result", stage.failed)
-    } else {
-        String::new()
-    };
-    sheet.line(&format!(
-        "{}; {} evaluations{failed}; first-order residual {:.0e}",
-        status(stage.status),
-        stage.evaluations,
-        stage.kkt_residual
-    ));
-    if !stage.alternatives.is_empty() {
-        let rows: Vec<Vec<String>> = stage
-            .alternatives
-            .iter()
-            .map(|a| {
-                let speed = a
-                    .critical_speed
-                    .map_or("none".into(), |v| both(Quantity::Speed, v)[1].clone());
-                vec![
-                    significant(a.conicity, 3),
-                    speed,
-                    format!("{}°", significant(a.degree, 4)),
-                    both(Quantity::RotationalStiffness, a.bending_stiffness)[1].clone(),
-                    both(Quantity::Stiffness, a.lateral_stiffness)[1].clone(),
-                    status(a.status).into(),
-                ]
-            })
-            .collect();
+    certificate(sheet, explained);
+    if !stage.profiles.is_empty() {
+        let rows: Vec<Vec<String>> = stage.profiles.iter().map(profile_row).collect();
         sheet.table(
             &[
                 "conicity",
@@ -150,11 +154,26 @@ fn trade_off(sheet: &mut Sheet, stage: &StageResult) {
     }
 }
 
+fn profile_row(profile: &Profile) -> Vec<String> {
+    let us = |quantity, si| both(quantity, si)[1].clone();
+    let speed = profile.critical_speed;
+    vec![
+        significant(profile.conicity, 3),
+        speed.map_or("none".into(), |v| us(Quantity::Speed, v)),
+        format!("{}°", significant(profile.degree, 4)),
+        us(Quantity::RotationalStiffness, profile.bending_stiffness),
+        us(Quantity::Stiffness, profile.lateral_stiffness),
+        status(profile.status).into(),
+    ]
+}
+
 pub(super) fn status(status: Status) -> &'static str {
     match status {
         Status::Optimal => "optimal",
         Status::Stalled => "feasible, but not converged to an optimum",
         Status::Infeasible => "requirement out of reach: least violation",
+        Status::BudgetSpent => "the budget of evaluations was spent: best so far",
+        Status::Interrupted => "interrupted: best so far",
     }
 }
 
@@ -182,12 +201,7 @@ fn performance(sheet: &mut Sheet, result: &DesignResult) {
     rows.push(line(
         "degree curve",
         "°",
-        &|e| {
-            e.curving
-                .as_ref()
-                .ok()
-                .map(super::super::evaluate::curving::CurvingLimits::degree)
-        },
+        &|e| e.curving.as_ref().ok().map(CurvingLimits::degree),
         1.0,
     ));
     rows.push(line(
@@ -212,21 +226,13 @@ fn performance(sheet: &mut Sheet, result: &DesignResult) {
         rows.push(line(
             "RMS secondary lateral stroke",
             unit,
-            &|e| {
-                e.lateral
-                    .as_ref()
-                    .map(super::super::evaluate::ride::LateralRide::average_stroke)
-            },
+            &|e| e.lateral.as_ref().map(LateralRide::average_stroke),
             factor,
         ));
         rows.push(line(
             "RMS secondary vertical stroke",
             unit,
-            &|e| {
-                e.vertical
-                    .as_ref()
-                    .map(super::super::evaluate::ride::VerticalRide::average_stroke)
-            },
+            &|e| e.vertical.as_ref().map(VerticalRide::average_stroke),
             factor,
         ));
     }
@@ -234,21 +240,13 @@ fn performance(sheet: &mut Sheet, result: &DesignResult) {
         rows.push(line(
             "RMS lateral acceleration",
             unit,
-            &|e| {
-                e.lateral
-                    .as_ref()
-                    .map(super::super::evaluate::ride::LateralRide::average_acceleration)
-            },
+            &|e| e.lateral.as_ref().map(LateralRide::average_acceleration),
             factor,
         ));
         rows.push(line(
             "RMS vertical acceleration",
             unit,
-            &|e| {
-                e.vertical
-                    .as_ref()
-                    .map(super::super::evaluate::ride::VerticalRide::average_acceleration)
-            },
+            &|e| e.vertical.as_ref().map(VerticalRide::average_acceleration),
             factor,
         ));
     }

@@ -1,5 +1,6 @@
-//! Results as text, JSON and CSV.
+//! Results as text, JSON, CSV and Parquet.
 
+mod certificate;
 mod cross_checks;
 pub mod curve;
 pub mod design_json;
@@ -9,7 +10,9 @@ mod evaluation_text;
 pub mod file;
 pub mod modes;
 pub mod number;
+pub mod pareto;
 pub mod psd;
 mod sheet;
+pub mod table;
 
 pub use evaluation_text::evaluation;

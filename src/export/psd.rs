@@ -1,10 +1,8 @@
 //! `bogie psd`: power spectra of accelerations and strokes against frequency.
 
-use std::fmt::Write;
-
 use serde_json::{Map, Value, json};
 
-use super::{evaluation_text::title, number::significant, sheet::Sheet};
+use super::{evaluation_text::title, number::significant, sheet::Sheet, table::Table};
 use crate::{
     case::Case,
     dynamics::{ForcedModel, LateralModel, VerticalModel, eigenvalues, lateral, vertical},
@@ -176,23 +174,14 @@ impl Spectra {
 
     /// As CSV, a row per frequency.
     pub fn csv(&self) -> String {
-        let mut text = String::from("frequency_hz");
+        let mut table = Table::new();
+        table.number("frequency_hz", self.frequency.iter().copied());
         let lateral = self.lateral.iter().flatten().map(|c| ("lateral", c));
-        let columns: Vec<_> = lateral
-            .chain(self.vertical.iter().map(|c| ("vertical", c)))
-            .collect();
-        for (direction, (name, _)) in &columns {
-            let _ = write!(text, ",{direction}_{name}");
+        let vertical = self.vertical.iter().map(|c| ("vertical", c));
+        for (direction, (name, values)) in lateral.chain(vertical) {
+            table.number(format!("{direction}_{name}"), values.iter().copied());
         }
-        text.push('\n');
-        for (i, f) in self.frequency.iter().enumerate() {
-            let _ = write!(text, "{f}");
-            for (_, (_, values)) in &columns {
-                let _ = write!(text, ",{}", values[i]);
-            }
-            text.push('\n');
-        }
-        text
+        table.csv()
     }
 }
 

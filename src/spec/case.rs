@@ -52,19 +52,8 @@ pub(super) fn read(
     if document.get("passenger.height_above_carbody_cg").is_none() {
         vehicle.passenger.height_above_carbody_cg = -vehicle.carbody.height_above_secondary;
     }
-    if let Some(value) = document.get(keys::TRACK) {
-        let builtin: Vec<String> = Track::names().collect();
-        let names: Vec<&str> = builtin
-            .iter()
-            .chain(tracks.keys())
-            .map(String::as_str)
-            .collect();
-        if let Some(i) = mistakes.collect(choice(value, "track", &names)) {
-            let named = tracks.get(names[i]).cloned();
-            if let Some(track) = named.or_else(|| Track::named(names[i])) {
-                case.service.track = track;
-            }
-        }
+    if let Some(track) = track(document, tracks, mistakes) {
+        case.service.track = track;
     }
     for option in keys::OPTIONS {
         if let Some(value) = document.get(option.path) {
@@ -77,6 +66,24 @@ pub(super) fn read(
     document.intervals(keys::RANGES, &mut case, mistakes);
     trucks_apart(document, &case, mistakes);
     case
+}
+
+/// The track that a document names.
+pub(super) fn track(
+    document: &Document,
+    tracks: &BTreeMap<String, Track>,
+    mistakes: &mut Mistakes,
+) -> Option<Track> {
+    let value = document.get(keys::TRACK)?;
+    let builtin: Vec<String> = Track::names().collect();
+    let names: Vec<&str> = builtin
+        .iter()
+        .chain(tracks.keys())
+        .map(String::as_str)
+        .collect();
+    let i = mistakes.collect(choice(value, "track", &names))?;
+    let own = tracks.get(names[i]).cloned();
+    own.or_else(|| Track::named(names[i]))
 }
 
 const CONICITY: &str = "wheel_rail.conicity";

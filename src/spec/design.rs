@@ -1,14 +1,12 @@
-//! What may vary, what must be reached, and what must not be exceeded.
+//! What may vary: `[design]`.
 
 use toml::de::DeValue;
 
 use super::diagnostic::{Collect, Diagnostic};
 use super::document::{Document, Value};
 use super::keys::{self, Range};
-use super::value::{interval, list, whole};
-use crate::case::Case;
-use crate::units::Quantity;
-use crate::wheel_rail::CONICITY_MAX;
+use super::value::{choice, interval, list, number, whole};
+use crate::parameter::Parameter;
 
 /// Closed interval, lower < upper.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,34 +29,41 @@ impl From<Interval> for [f64; 2] {
     }
 }
 
-/// How the conicity may vary.
+/// What the search may do with a parameter. SI units.
 #[derive(Debug, Clone, PartialEq)]
-pub enum ConicitySpace {
-    /// Continuously.
-    Interval(Interval),
-    /// Among the conicities of given profiles.
+pub enum Freedom {
+    /// Anything between bounds.
+    Between(Interval),
+    /// One of a few values.
     Choices(Vec<f64>),
+    /// A multiple of another parameter.
+    Tied {
+        /// The other.
+        to: Parameter,
+        /// Value over the other's.
+        ratio: f64,
+    },
+    /// This value.
+    Fixed(f64),
 }
 
-/// What the design may vary; `None` keeps a value as the case has it. SI units.
+/// In which order a design is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Order {
+    /// The report's three trade-offs one after the other, with the coupling loop (Figure 4.2.1).
+    #[default]
+    Sequential,
+    /// All parameters at once.
+    Joint,
+}
+
+/// What the design may vary. Parameters that are not listed keep the value of the case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DesignSpace {
-    /// K_b = d_p² K_px, N m/rad.
-    pub primary_bending_stiffness: Option<Interval>,
-    /// K_py, N/m.
-    pub primary_lateral_stiffness: Option<Interval>,
-    /// Vertical natural frequency of the truck frame, Hz, from which K_pz follows (3.5-9).
-    pub primary_vertical_frequency: Option<f64>,
-    /// f_n of the carbody on its secondary lateral springs, Hz.
-    pub secondary_lateral_frequency: Option<Interval>,
-    /// ξ of the secondary lateral suspension.
-    pub secondary_lateral_damping_ratio: Option<Interval>,
-    /// f_n of the carbody on its secondary vertical springs, Hz.
-    pub secondary_vertical_frequency: Option<Interval>,
-    /// ξ of the secondary vertical suspension.
-    pub secondary_vertical_damping_ratio: Option<Interval>,
-    /// λ.
-    pub conicity: Option<ConicitySpace>,
+    /// In the order of [`Parameter::ALL`].
+    pub parameters: Vec<(Parameter, Freedom)>,
+    /// In which order the design is found.
+    pub order: Order,
     /// Seed of the search: the same seed gives the same design.
     pub seed: u64,
 }
@@ -66,76 +71,57 @@ pub struct DesignSpace {
 impl Default for DesignSpace {
     fn default() -> Self {
         Self {
-            primary_bending_stiffness: None,
-            primary_lateral_stiffness: None,
-            primary_vertical_frequency: None,
-            secondary_lateral_frequency: None,
-            secondary_lateral_damping_ratio: None,
-            secondary_vertical_frequency: None,
-            secondary_vertical_damping_ratio: None,
-            conicity: None,
+            parameters: Vec::new(),
+            order: Order::default(),
             seed: 1,
         }
     }
 }
 
-/// What must be reached.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Requirements {
-    /// Critical speed, at least, m/s.
-    pub critical_speed: Option<f64>,
-    /// Tightest curve without flanging or slip, at least, in degrees of curve (not radians).
-    pub degree_curve: Option<f64>,
-    /// Average RMS lateral acceleration, at most, m/s².
-    pub lateral_acceleration: Option<f64>,
-    /// Average RMS vertical acceleration, at most, m/s².
-    pub vertical_acceleration: Option<f64>,
+impl DesignSpace {
+    /// What may be done with a parameter.
+    pub fn freedom(&self, parameter: Parameter) -> Option<&Freedom> {
+        self.parameters
+            .iter()
+            .find(|(p, _)| *p == parameter)
+            .map(|(_, freedom)| freedom)
+    }
 }
 
-/// What three standard deviations must not exceed, m.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Limits {
-    /// Secondary lateral stroke.
-    pub secondary_lateral_stroke: Option<f64>,
-    /// Secondary vertical stroke.
-    pub secondary_vertical_stroke: Option<f64>,
-    /// Primary lateral stroke.
-    pub primary_lateral_stroke: Option<f64>,
-    /// Excursion of a wheelset from the track centre line.
-    pub wheelset_excursion: Option<f64>,
-}
+/// Names of [`Order`].
+const ORDERS: [&str; 2] = ["sequential", "joint"];
 
-/// Reads `[design]`; `case` turns bounds of K_px into bounds of K_b.
-pub(super) fn read(
-    document: &Document,
-    case: &Case,
-    mistakes: &mut Vec<Diagnostic>,
-) -> DesignSpace {
+/// Reads `[design]`.
+pub(super) fn read(document: &Document, mistakes: &mut Vec<Diagnostic>) -> DesignSpace {
     let mut design = DesignSpace::default();
-    document.numbers(keys::RULES.iter(), &mut design, mistakes);
-    document.intervals(keys::BOUNDS, &mut design, mistakes);
-    if let Some(value) = document.get(keys::LONGITUDINAL_BOUNDS) {
-        let name = "primary_longitudinal_stiffness";
-        let bounds = interval(value, name, Quantity::Stiffness, Range::Positive);
-        if document.get("design.primary_bending_stiffness").is_some() {
+    let mut given: Vec<Parameter> = Vec::new();
+    for parameter in Parameter::ALL {
+        let Some(value) = document.get(parameter.path()) else {
+            continue;
+        };
+        let same = given.iter().find(|p| p.constant() == parameter.constant());
+        if let Some(same) = same {
+            let name = parameter.name();
             mistakes.push(
                 Diagnostic::at(
                     value.span(),
-                    format!("`{name}` and `primary_bending_stiffness` are the same variable"),
+                    format!("`{name}` and `{}` are the same variable", same.name()),
                     "expected one of the two",
                 )
-                .help("K_b = d_p² K_px: leave one out".to_owned()),
+                .help(parameter.relation().map(|r| format!("{r}: leave one out"))),
             );
-        } else if let Some(bounds) = mistakes.collect(bounds) {
-            let d_p2 = case.vehicle.truck.half_primary_spacing.powi(2);
-            design.primary_bending_stiffness = Some(Interval {
-                lower: bounds.lower * d_p2,
-                upper: bounds.upper * d_p2,
-            });
+            continue;
+        }
+        given.push(parameter);
+        if let Some(freedom) = mistakes.collect(freedom(parameter, value)) {
+            design.parameters.push((parameter, freedom));
         }
     }
-    if let Some(value) = document.get(keys::CONICITY_SPACE) {
-        design.conicity = mistakes.collect(conicity(value));
+    ties(document, &design, mistakes);
+    if let Some(value) = document.get(keys::ORDER)
+        && let Some(i) = mistakes.collect(choice(value, "order", &ORDERS))
+    {
+        design.order = [Order::Sequential, Order::Joint][i];
     }
     if let Some(value) = document.get(keys::SEED) {
         design.seed = mistakes.collect(whole(value, "seed")).unwrap_or(1);
@@ -143,29 +129,79 @@ pub(super) fn read(
     design
 }
 
-/// `[0.05, 0.25]` or `{ choices = [0.05, 0.10] }`.
-fn conicity(value: &Value) -> Result<ConicitySpace, Diagnostic> {
-    let range = Range::PositiveUpTo(CONICITY_MAX);
-    let quantity = Quantity::Dimensionless;
-    let DeValue::Table(table) = value.get_ref() else {
-        return interval(value, "conicity", quantity, range).map(ConicitySpace::Interval);
-    };
-    let mut choices = None;
-    for (name, value) in table {
-        if name.get_ref() != "choices" {
-            return Err(Diagnostic::at(
-                name.span(),
-                format!("unknown key `{}`", name.get_ref()),
-                "expected choices = [0.05, 0.10]",
+/// `["1 MN/m", "9 MN/m"]`, `{ choices = [0.05, 0.10] }`, `{ tied_to = "…", ratio = 0.5 }` or a
+/// value.
+fn freedom(parameter: Parameter, value: &Value) -> Result<Freedom, Diagnostic> {
+    let (name, quantity, range) = (parameter.name(), parameter.quantity(), parameter.range());
+    match value.get_ref() {
+        DeValue::Table(table) => {
+            let entry = |key: &str| table.iter().find(|(k, _)| *k.get_ref() == key);
+            let known = ["choices", "tied_to", "ratio"];
+            let example = match parameter {
+                Parameter::Conicity => "expected { choices = [0.05, 0.10] }",
+                _ => "expected { tied_to = \"primary_lateral_stiffness\", ratio = 0.5 }",
+            };
+            if let Some((key, _)) = table.iter().find(|(k, _)| !known.contains(&&**k.get_ref())) {
+                let message = format!("unknown key `{}`", key.get_ref());
+                return Err(Diagnostic::at(key.span(), message, example));
+            }
+            match (entry("choices"), entry("tied_to"), entry("ratio")) {
+                (Some((key, _)), _, _) if parameter != Parameter::Conicity => Err(Diagnostic::at(
+                    key.span(),
+                    format!("`{name}` cannot be chosen from a list"),
+                    "expected bounds: choices are for the wheel profile",
+                )),
+                (Some((_, choices)), None, None) => {
+                    list(choices, "choices", quantity, range, 1).map(Freedom::Choices)
+                }
+                (None, Some((_, to)), ratio) => {
+                    let names = Parameter::ALL.map(Parameter::name);
+                    let to = Parameter::ALL[choice(to, "tied_to", &names)?];
+                    if to.quantity() != quantity || to.constant() == parameter.constant() {
+                        return Err(Diagnostic::at(
+                            value.span(),
+                            format!("`{name}` cannot be tied to `{}`", to.name()),
+                            "expected another parameter of the same kind",
+                        ));
+                    }
+                    let ratio = ratio.map_or(Ok(1.0), |(_, ratio)| {
+                        let dimensionless = crate::units::Quantity::Dimensionless;
+                        number(ratio, "ratio", dimensionless, Range::Positive)
+                    })?;
+                    Ok(Freedom::Tied { to, ratio })
+                }
+                _ => {
+                    let message = match parameter {
+                        Parameter::Conicity => format!("`{name}` has no choices"),
+                        _ => format!("`{name}` says neither bounds nor what it is tied to"),
+                    };
+                    Err(Diagnostic::at(value.span(), message, example))
+                }
+            }
+        }
+        DeValue::Array(_) => interval(value, name, quantity, range).map(Freedom::Between),
+        _ => number(value, name, quantity, range).map(Freedom::Fixed),
+    }
+}
+
+/// A parameter may be tied to one that is not tied itself.
+fn ties(document: &Document, design: &DesignSpace, mistakes: &mut Vec<Diagnostic>) {
+    for (parameter, freedom) in &design.parameters {
+        let Freedom::Tied { to, .. } = freedom else {
+            continue;
+        };
+        if matches!(design.freedom(*to), Some(Freedom::Tied { .. }))
+            && let Some(value) = document.get(parameter.path())
+        {
+            mistakes.push(Diagnostic::at(
+                value.span(),
+                format!(
+                    "`{}` is tied to `{}`, which is tied itself",
+                    parameter.name(),
+                    to.name()
+                ),
+                "expected a parameter that is not tied",
             ));
         }
-        choices = Some(list(value, "choices", quantity, range, 1)?);
     }
-    choices.map(ConicitySpace::Choices).ok_or_else(|| {
-        Diagnostic::at(
-            value.span(),
-            "`conicity` has no choices",
-            "expected { choices = [0.05, 0.10] }",
-        )
-    })
 }

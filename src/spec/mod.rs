@@ -13,6 +13,8 @@
 //! the inputs in results, and documentation.
 
 mod case;
+mod conditions;
+mod demands;
 mod design;
 mod diagnostic;
 mod document;
@@ -21,7 +23,9 @@ mod read;
 mod tracks;
 mod value;
 
-pub use design::{ConicitySpace, DesignSpace, Interval, Limits, Requirements};
+pub use conditions::Condition;
+pub use demands::{FRONT_POINTS, Front, Goal};
+pub use design::{DesignSpace, Freedom, Interval, Order};
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use keys::inputs_si;
 pub use read::{MAX_BYTES, STARTER, Spec};

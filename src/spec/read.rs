@@ -4,8 +4,12 @@ use toml::de::DeTable;
 
 use super::diagnostic::Diagnostic;
 use super::document::Document;
-use super::{DesignSpace, Diagnostics, Limits, Requirements, case, design, keys, tracks};
+use super::{
+    Condition, DesignSpace, Diagnostics, Front, Goal, case, conditions, demands, design, keys,
+    tracks,
+};
 use crate::case::Case;
+use crate::index::Demands;
 
 /// Largest spec that is read, bytes.
 pub const MAX_BYTES: usize = 1 << 20;
@@ -20,10 +24,14 @@ pub struct Spec {
     pub case: Case,
     /// What may vary.
     pub design: DesignSpace,
-    /// What must be reached.
-    pub requirements: Requirements,
-    /// What must not be exceeded.
-    pub limits: Limits,
+    /// What is to be as good as can be; none: the report's own objectives, one per trade-off.
+    pub objective: Vec<Goal>,
+    /// Requirements and limits.
+    pub demands: Demands,
+    /// Further operating conditions in which they hold.
+    pub conditions: Vec<Condition>,
+    /// What a front trades off.
+    pub front: Front,
 }
 
 impl Spec {
@@ -52,17 +60,19 @@ impl Spec {
         let document = Document::new(root.get_ref(), &keys::paths(), &mut mistakes);
         let own_tracks = tracks::read(&document, &mut mistakes);
         let case = case::read(&document, &own_tracks, &mut mistakes);
-        let design = design::read(&document, &case, &mut mistakes);
-        let mut requirements = Requirements::default();
-        document.numbers(keys::REQUIREMENTS.iter(), &mut requirements, &mut mistakes);
-        let mut limits = Limits::default();
-        document.numbers(keys::LIMITS.iter(), &mut limits, &mut mistakes);
+        let design = design::read(&document, &mut mistakes);
+        let objective = demands::objective(&document, &mut mistakes);
+        let front = demands::front(&document, &mut mistakes);
+        let demands = demands::demands(&document, &mut mistakes);
+        let conditions = conditions::read(&document, &own_tracks, &mut mistakes);
         if mistakes.is_empty() {
             Ok(Self {
                 case,
                 design,
-                requirements,
-                limits,
+                objective,
+                demands,
+                conditions,
+                front,
             })
         } else {
             Err(Diagnostics::new(mistakes))

@@ -14,6 +14,7 @@ mod dimension;
 mod error;
 mod expression;
 mod quantity;
+mod range;
 mod symbol;
 pub mod us;
 
@@ -21,3 +22,4 @@ pub use dimension::Dimension;
 pub use error::UnitError;
 pub use expression::{Measure, Unit};
 pub use quantity::{DisplayUnit, Quantity};
+pub use range::Range;

@@ -1,25 +1,30 @@
 //! Everything that a spec may contain, as tables of keys.
 
-mod design;
 mod key;
 mod options;
 mod suspension;
 mod vehicle;
 mod wheel_rail;
 
-pub use design::{BOUNDS, LIMITS, REQUIREMENTS, RULES};
-pub use key::{Key, Need, Range};
+pub use crate::units::Range;
+pub use key::{Key, Need};
 pub use options::{Choice, OPTIONS, RANGES};
 
 use crate::case::Case;
+use crate::index::Index;
+use crate::parameter::Parameter;
 
 /// Paths of the entries that have their own form.
 pub(super) const BASE: &str = "vehicle.base";
 pub(super) const TRACK: &str = "service.track";
 pub(super) const TRACKS: &str = "tracks";
-pub(super) const CONICITY_SPACE: &str = "design.conicity";
-pub(super) const LONGITUDINAL_BOUNDS: &str = "design.primary_longitudinal_stiffness";
+pub(super) const CONDITIONS: &str = "conditions";
+pub(super) const ORDER: &str = "design.order";
 pub(super) const SEED: &str = "design.seed";
+pub(super) const MAXIMIZE: &str = "objective.maximize";
+pub(super) const MINIMIZE: &str = "objective.minimize";
+pub(super) const FRONT_INDICES: &str = "pareto.indices";
+pub(super) const FRONT_POINTS: &str = "pareto.points";
 
 /// The numeric keys of a case.
 pub fn case() -> impl Iterator<Item = &'static Key<Case>> {
@@ -49,11 +54,10 @@ pub fn paths() -> Vec<&'static str> {
     paths.extend(OPTIONS.iter().map(|option| option.path));
     paths.extend(RANGES.iter().map(|key| key.path));
     paths.push(TRACKS);
-    paths.extend(BOUNDS.iter().map(|key| key.path));
-    paths.extend(RULES.iter().map(|key| key.path));
-    paths.extend([LONGITUDINAL_BOUNDS, CONICITY_SPACE, SEED]);
-    paths.extend(REQUIREMENTS.iter().map(|key| key.path));
-    paths.extend(LIMITS.iter().map(|key| key.path));
+    paths.extend(Parameter::ALL.map(Parameter::path));
+    paths.extend([ORDER, SEED, MAXIMIZE, MINIMIZE]);
+    paths.extend(Index::ALL.map(Index::path));
+    paths.extend([FRONT_INDICES, FRONT_POINTS, CONDITIONS]);
     paths
 }
 

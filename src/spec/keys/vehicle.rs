@@ -1,13 +1,18 @@
 //! Keys of `[service]`, `[vehicle.*]` and `[passenger]`.
 
 use super::Need::{Optional, Required};
-use super::Range::{Any, Between, NonNegative, Positive};
+use super::Range::{Any, Between, NonNegative, Positive, PositiveUpTo};
 use super::key::{Key, key};
 use crate::case::Case;
+use crate::track::MAX_DEGREE;
+
+const RADIANS: f64 = std::f64::consts::PI / 180.0;
 
 #[rustfmt::skip]
 pub(super) static SERVICE: &[Key<Case>] = &[
     key!("service.speed", "V", Speed, Positive, Required, "operating speed", service.speed),
+    key!("service.curve", "D", DegreeOfCurve, PositiveUpTo(MAX_DEGREE * RADIANS), Optional("the tightest without flange contact or slip"), "degree of the curve in which forces on the rails are judged", service.curve),
+    key!("service.cant_deficiency", "φ_d", Angle, Between(-0.2, 0.2), Optional("0"), "cant deficiency there", service.cant_deficiency),
 ];
 
 #[rustfmt::skip]

@@ -1,7 +1,9 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::spec::{ConicitySpace, inputs_si};
+use crate::index::Index;
+use crate::parameter::Parameter;
+use crate::spec::{Freedom, Order, inputs_si};
 use crate::track::{Spectrum, Track};
 use crate::units::us::{FOOT, LBF, MILE, SLUG};
 
@@ -35,8 +37,8 @@ fn base_alone_is_the_prototype() {
     let spec = parse(BASE);
     assert_eq!(spec.case, Case::prototype());
     assert_eq!(spec.design, DesignSpace::default());
-    assert_eq!(spec.requirements, Requirements::default());
-    assert_eq!(spec.limits, Limits::default());
+    assert_eq!(spec.demands, Demands::default());
+    assert!(spec.objective.is_empty() && spec.conditions.is_empty());
 }
 
 #[test]
@@ -128,14 +130,17 @@ fn example_1_reads_as_printed() {
     assert!(close(vehicle.carbody.mass, 2500.0 * SLUG));
     assert!(close(vehicle.bending_stiffness(), 1.8e6 * LBF * FOOT));
     assert!(close(spec.case.service.speed, 130.0 * MILE / 3600.0));
-    let bending = spec.design.primary_bending_stiffness.unwrap();
+    let Some(Freedom::Between(bending)) = spec.design.freedom(Parameter::PrimaryBendingStiffness)
+    else {
+        panic!("K_b is open");
+    };
     assert!(close(bending.lower, 1e5 * LBF * FOOT) && close(bending.upper, 2e7 * LBF * FOOT));
     assert_eq!(
-        spec.design.conicity,
-        Some(ConicitySpace::Choices(vec![0.05, 0.10, 0.15, 0.25]))
+        spec.design.freedom(Parameter::Conicity),
+        Some(&Freedom::Choices(vec![0.05, 0.10, 0.15, 0.25]))
     );
     assert!(close(
-        spec.limits.secondary_lateral_stroke.unwrap(),
+        spec.demands.get(Index::SecondaryLateralStroke).unwrap(),
         1.5 * 0.0254
     ));
 }
@@ -184,20 +189,82 @@ fn passengers_stay_on_the_floor() {
 }
 
 #[test]
-fn longitudinal_bounds_are_bounds_of_the_bending_stiffness() {
-    let source = "[design]\nprimary_longitudinal_stiffness = [\"1 MN/m\", \"2 MN/m\"]\nseed = 7";
-    let spec = parse(&format!(
-        "{BASE}[vehicle.truck]\nhalf_primary_spacing = \"0.5 m\"\n{source}"
+fn what_a_parameter_may_do() {
+    let source = "[design]\norder = \"joint\"\nseed = 7\n\
+        primary_longitudinal_stiffness = [\"1 MN/m\", \"2 MN/m\"]\n\
+        primary_lateral_stiffness = { tied_to = \"primary_longitudinal_stiffness\", ratio = 0.5 }\n\
+        secondary_lateral_frequency = \"0.9 Hz\"\n\
+        secondary_yaw_breakaway_torque = [\"0 N m\", \"20 kN m\"]\n";
+    let design = parse(&format!("{BASE}{source}")).design;
+    assert_eq!((design.order, design.seed), (Order::Joint, 7));
+    let freedom = |parameter| design.freedom(parameter).unwrap();
+    assert!(matches!(
+        freedom(Parameter::PrimaryLongitudinalStiffness),
+        Freedom::Between(bounds) if close(bounds.lower, 1e6) && close(bounds.upper, 2e6)
     ));
-    let bending = spec.design.primary_bending_stiffness.unwrap();
-    assert!(close(bending.lower, 0.25e6) && close(bending.upper, 0.5e6));
-    assert_eq!(spec.design.seed, 7);
+    let tied = Freedom::Tied {
+        to: Parameter::PrimaryLongitudinalStiffness,
+        ratio: 0.5,
+    };
+    assert_eq!(*freedom(Parameter::PrimaryLateralStiffness), tied);
+    assert_eq!(
+        *freedom(Parameter::SecondaryLateralFrequency),
+        Freedom::Fixed(0.9)
+    );
+    assert!(matches!(
+        freedom(Parameter::SecondaryYawBreakawayTorque),
+        Freedom::Between(bounds) if bounds.lower == 0.0
+    ));
+}
+
+#[test]
+fn objectives_fronts_and_conditions() {
+    let source = "[objective]\nmaximize = \"degree_curve\"\n\
+        minimize = { lateral_acceleration = 2.0 }\n\
+        [requirements]\ncritical_speed = \"200 mph\"\nleast_damping_ratio_to_speed = 0.05\n\
+        [limits]\nwheel_l_over_v = 0.8\n\
+        [pareto]\nindices = [\"critical_speed\", \"lateral_acceleration\"]\npoints = 9\n\
+        [conditions.worn]\nwheel_rail.conicity = 0.15\nservice.track = \"fra-class-4\"\n\
+        [conditions.worn.requirements]\ncritical_speed = \"150 mph\"\n\
+        [conditions.loaded.vehicle.carbody]\nmass = \"48 t\"\n";
+    let spec = parse(&format!("{BASE}{source}"));
+    let goals: Vec<(Index, f64)> = spec.objective.iter().map(|g| (g.index, g.weight)).collect();
+    assert_eq!(
+        goals,
+        [(Index::DegreeCurve, 1.0), (Index::LateralAcceleration, 2.0)]
+    );
+    assert_eq!(
+        spec.demands.get(Index::LeastDampingRatioToSpeed),
+        Some(0.05)
+    );
+    assert_eq!(spec.demands.get(Index::WheelLOverV), Some(0.8));
+    assert_eq!(
+        spec.front.indices,
+        [Index::CriticalSpeed, Index::LateralAcceleration]
+    );
+    assert_eq!(spec.front.points, 9);
+    let worn = spec.conditions.iter().find(|c| c.name == "worn").unwrap();
+    let case = worn.apply(&spec.case);
+    assert!(close(case.wheel_rail.conicity, 0.15));
+    assert_eq!(case.service.track.name, "fra-class-4");
+    let demands = spec.demands.overridden(&worn.demands);
+    assert!(close(
+        demands.get(Index::CriticalSpeed).unwrap(),
+        150.0 * MILE / 3600.0
+    ));
+    assert_eq!(demands.get(Index::WheelLOverV), Some(0.8));
+    let loaded = spec.conditions.iter().find(|c| c.name == "loaded").unwrap();
+    assert!(close(
+        loaded.apply(&spec.case).vehicle.carbody.mass,
+        48_000.0
+    ));
 }
 
 #[test]
 fn degree_curve_is_kept_in_degrees() {
     let spec = parse(&format!("{BASE}[requirements]\ndegree_curve = \"25 deg\""));
-    assert!(close(spec.requirements.degree_curve.unwrap(), 25.0));
+    let degree = spec.demands.get(Index::DegreeCurve).unwrap().to_degrees();
+    assert!(close(degree, 25.0));
 }
 
 #[test]

@@ -1,12 +1,14 @@
-//! A constrained design problem around full-model evaluations.
+//! A constrained problem around costly evaluations.
 //!
 //! ```math
-//! minimise  max_i f_i(x)   subject to   c_j(x) ≤ 0,   0 ≤ x ≤ 1
+//! minimise  Σ_k max_i f_ki(x)   subject to   c_j(x) ≤ 0,   0 ≤ x ≤ 1
 //! ```
 //!
-//! x are the design variables, scaled to their bounds. The degree curve is the least of several
-//! limits and the critical speed the least of several modes': each is a piece of its own, so that
-//! f_i and c_j are smooth.
+//! x are the variables, scaled to their bounds. Every f_ki and c_j is a smooth *piece*: the degree
+//! curve is the least of several limits and the critical speed the least of several modes', so each
+//! of these is a piece of its own.
+
+use serde::{Deserialize, Serialize};
 
 use crate::units::Quantity;
 
@@ -54,12 +56,21 @@ impl Variable {
         };
         x.clamp(0.0, 1.0)
     }
+
+    /// Change of the value per change of its scaled coordinate at `value`.
+    pub fn slope(&self, value: f64) -> f64 {
+        let [low, high] = self.bounds;
+        match self.scale {
+            Scale::Logarithmic => value * (high / low).ln(),
+            Scale::Linear => high - low,
+        }
+    }
 }
 
-/// One smooth piece of an objective or constraint.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// One smooth piece of an objective or constraint, or of the index that it is made from.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Piece {
-    /// Its value, scaled to order one.
+    /// Its value; in a problem's values scaled to order one.
     pub value: f64,
     /// What it belongs to: the same index at every design.
     pub index: usize,
@@ -79,43 +90,76 @@ impl Piece {
     }
 }
 
-/// What a full-model evaluation gives an optimiser.
+/// What a design is worth to a problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Values {
-    /// f_i.
-    pub objective: Vec<Piece>,
+    /// f_ki: the objective is the sum over k of the largest piece of each.
+    pub objectives: Vec<Vec<Piece>>,
     /// c_j; satisfied where not positive.
     pub constraints: Vec<Piece>,
 }
 
 impl Values {
-    /// max f_i.
+    /// Σ max f_ki.
     pub fn objective(&self) -> f64 {
-        largest(&self.objective)
+        self.objectives.iter().map(|pieces| largest(pieces)).sum()
     }
 
     /// max(0, max c_j).
     pub fn violation(&self) -> f64 {
         largest(&self.constraints).max(0.0)
     }
+
+    /// Whether every constraint holds to [`FEASIBLE`].
+    pub fn feasible(&self) -> bool {
+        self.violation() <= FEASIBLE
+    }
 }
 
-fn largest(pieces: &[Piece]) -> f64 {
+/// The largest value; minus infinity where there is none.
+pub fn largest(pieces: &[Piece]) -> f64 {
     pieces
         .iter()
         .map(|p| p.value)
         .fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Why a design could not be evaluated.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+/// Why a design has no performance.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, thiserror::Error,
+)]
+#[serde(rename_all = "kebab-case")]
 pub enum Failure {
     /// No stationary response exists.
-    #[error("the vehicle is unstable at its operating speed")]
+    #[error("unstable at the operating speed")]
     Unstable,
-    /// The numerical method gave up.
-    #[error("{0}")]
-    Numerical(String),
+    /// A motion without oscillation grows: the carbody overturns, or the trucks diverge.
+    #[error("a static instability")]
+    Diverging,
+    /// The curving equations are singular.
+    #[error("no steady-state solution in a curve")]
+    NoCurve,
+    /// No mode of the kind asked for exists.
+    #[error("no mode of that kind")]
+    NoMode,
+    /// The eigenvalue iteration gave up.
+    #[error("eigenvalues not converged")]
+    Eigenvalues,
+    /// The random response did not meet its tolerance.
+    #[error("random response not converged")]
+    Integration,
+    /// An index came out infinite or undefined.
+    #[error("an index that is not a number")]
+    NotFinite,
+}
+
+/// What identifies a measurement: equal keys, equal measurements.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Key {
+    /// What is measured.
+    pub what: String,
+    /// Of which design, SI.
+    pub at: Vec<f64>,
 }
 
 /// A problem to be minimised.
@@ -123,18 +167,35 @@ pub trait Problem: Sync {
     /// Its variables.
     fn variables(&self) -> &[Variable];
 
-    /// What is maximised or minimised, subject to what, in words.
-    fn goal(&self) -> String;
-
-    /// Name of the piece with an index, of the objective or the constraints.
+    /// Name of the pieces with an index.
     fn piece_name(&self, index: usize) -> String;
 
-    /// Evaluates the full models at scaled coordinates x.
+    /// Identifies what [`Problem::measure`] gives at x.
+    fn key(&self, x: &[f64]) -> Key {
+        Key {
+            what: String::new(),
+            at: x.to_vec(),
+        }
+    }
+
+    /// Evaluates the full models at scaled coordinates x: the costly part.
     ///
     /// # Errors
     ///
     /// [`Failure`] where the design has no such performance.
-    fn evaluate(&self, x: &[f64]) -> Result<Values, Failure>;
+    fn measure(&self, x: &[f64]) -> Result<Vec<Piece>, Failure>;
+
+    /// Objective and constraints from what was measured.
+    fn judge(&self, measured: &[Piece]) -> Values;
+
+    /// Both.
+    ///
+    /// # Errors
+    ///
+    /// As [`Problem::measure`].
+    fn evaluate(&self, x: &[f64]) -> Result<Values, Failure> {
+        Ok(self.judge(&self.measure(x)?))
+    }
 }
 
 /// A design that has been evaluated.
@@ -150,8 +211,8 @@ pub struct Point {
 pub const FEASIBLE: f64 = 1e-6;
 
 impl Point {
-    /// Exact penalty merit, finite everywhere: feasible designs by their objective, the others by
-    /// objective and violation, failed ones last.
+    /// Exact penalty merit, finite everywhere: evaluated designs by objective and largest
+    /// violation, failed ones last.
     pub fn merit(&self, penalty: f64) -> f64 {
         /// Above every merit of an evaluated design.
         const FAILED: f64 = 1e6;
@@ -168,24 +229,32 @@ impl Point {
         }
     }
 
+    /// Whether it could be evaluated and every constraint holds.
+    pub fn feasible(&self) -> bool {
+        self.values.as_ref().is_ok_and(Values::feasible)
+    }
+
     /// Feasible designs before infeasible ones, those by their objective and these by their
     /// violation; ties by position, so that the order never depends on the order of evaluation.
     pub fn better_than(&self, other: &Self) -> bool {
         let rank = |p: &Self| match &p.values {
-            Ok(v) if v.violation() <= FEASIBLE => (0, v.objective()),
+            Ok(v) if v.feasible() => (0, v.objective()),
             Ok(v) => (1, v.violation()),
             Err(_) => (2, 0.0),
         };
         let ((a, x), (b, y)) = (rank(self), rank(other));
         a.cmp(&b)
             .then(x.total_cmp(&y))
-            .then_with(|| {
-                let pairs = self.x.iter().zip(&other.x);
-                pairs
-                    .map(|(p, q)| p.total_cmp(q))
-                    .find(|o| o.is_ne())
-                    .unwrap_or(std::cmp::Ordering::Equal)
-            })
+            .then_with(|| by_position(&self.x, &other.x))
             .is_lt()
     }
+}
+
+/// Order of two designs, coordinate by coordinate.
+pub(super) fn by_position(a: &[f64], b: &[f64]) -> std::cmp::Ordering {
+    let pairs = a.iter().zip(b);
+    pairs
+        .map(|(x, y)| x.total_cmp(y))
+        .find(|o| o.is_ne())
+        .unwrap_or(std::cmp::Ordering::Equal)
 }

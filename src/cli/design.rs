@@ -1,0 +1,186 @@
+//! The commands that search: `optimize` and `pareto`.
+
+use std::path::Path;
+
+use bogie::{
+    design::{
+        pareto,
+        procedure::{self, DesignError},
+    },
+    evaluate::warnings::warnings,
+    export::{self, design_json, design_text},
+    index::Index,
+    optimize::{
+        archive::Archive,
+        journal::{Header, Journal, JournalError},
+    },
+    spec::FRONT_POINTS,
+};
+
+use super::{
+    Done, Failure,
+    arguments::{Optimize, Pareto, Search, TableFormat},
+    commands::{deliver, failed, wrong},
+    input, interrupt, output,
+    progress::Line,
+};
+
+pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
+    let input::Named { name, spec, digest } = input::read(&call.run.source.spec)?;
+    let progress = Line::new();
+    let header = header("optimize", &digest);
+    let archive = archive(&progress, &call.search, call.run.out.as_deref(), &header)?;
+    let designed = procedure::design(&spec, &archive);
+    progress.finish();
+    report(&archive);
+    let result = designed.map_err(|error| match error {
+        DesignError::NothingOpen | DesignError::NoRequirement => Failure::Invalid(format!(
+            "error: {}: {error}",
+            call.run.source.spec.display()
+        )),
+        error => failed(error),
+    })?;
+    let warnings = warnings(&result.case, &result.evaluation);
+    deliver(
+        &call.run,
+        "optimize",
+        || design_text::design(&name, &result, &spec.demands, &warnings),
+        || design_json::design(&name, &result, &spec, &digest, &warnings),
+    )?;
+    Ok(if result.met() {
+        Done::Complete
+    } else {
+        Done::Unmet
+    })
+}
+
+pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
+    let input::Named {
+        name,
+        mut spec,
+        digest,
+    } = input::read(&call.source.spec)?;
+    if !call.indices.is_empty() {
+        spec.front.indices = indices(&call.indices)?;
+    }
+    if let Some(points) = call.points {
+        if !FRONT_POINTS.contains(&points) {
+            let (least, most) = (FRONT_POINTS.start(), FRONT_POINTS.end());
+            return Err(wrong(&format!(
+                "--points {points}: expected {least} to {most}"
+            )));
+        }
+        spec.front.points = points;
+    }
+    let traded: Vec<&str> = spec.front.indices.iter().map(|i| i.name()).collect();
+    if spec.design.parameters.is_empty() {
+        let shown = call.source.spec.display();
+        return Err(Failure::Invalid(format!(
+            "error: {shown}: {}",
+            DesignError::NothingOpen
+        )));
+    }
+    let progress = Line::new();
+    let search = format!("{digest} {} {}", traded.join(","), spec.front.points);
+    let header = header("pareto", &search);
+    let archive = archive(&progress, &call.search, call.out.as_deref(), &header)?;
+    let front = pareto::pareto(&spec, &archive);
+    progress.finish();
+    report(&archive);
+    let front = front.map_err(failed)?;
+    if front.points.is_empty() && front.stopped.is_none() {
+        eprintln!("no design keeps the remaining requirements and limits: there is no front");
+    }
+    let table = || export::pareto::table(&name, &front, &digest);
+    let (content, ending) = match call.format {
+        TableFormat::Text => (export::pareto::text(&name, &front).into_bytes(), "txt"),
+        TableFormat::Json => {
+            let json = export::pareto::json(&name, &front, &spec, &digest);
+            let text = serde_json::to_string_pretty(&json).map_err(failed)?;
+            ((text + "\n").into_bytes(), "json")
+        }
+        TableFormat::Csv => (table().csv().into_bytes(), "csv"),
+        #[cfg(feature = "parquet")]
+        TableFormat::Parquet => (table().parquet().map_err(failed)?, "parquet"),
+    };
+    output::write(content, call.out.as_deref(), &format!("pareto.{ending}"))?;
+    Ok(if front.points.is_empty() {
+        Done::Unmet
+    } else {
+        Done::Complete
+    })
+}
+
+fn indices(names: &[String]) -> Result<Vec<Index>, Failure> {
+    let mut indices = Vec::new();
+    for name in names {
+        let index = Index::named(name.trim()).ok_or_else(|| {
+            let known = Index::ALL.map(Index::name).join(", ");
+            wrong(&format!(
+                "--indices: unknown index `{name}`; known are {known}"
+            ))
+        })?;
+        if indices.contains(&index) {
+            return Err(wrong(&format!("--indices: `{name}` stands twice")));
+        }
+        indices.push(index);
+    }
+    if (2..=3).contains(&indices.len()) {
+        Ok(indices)
+    } else {
+        Err(wrong("--indices: expected two or three indices"))
+    }
+}
+
+/// What a journal must belong to: all that decides the search but the budget, which may be raised.
+fn header(command: &str, digest: &str) -> Header {
+    Header {
+        program: concat!("bogie ", env!("CARGO_PKG_VERSION")).into(),
+        digest: format!("{command} {digest}"),
+    }
+}
+
+/// The archive of a run, with its journal where there is a folder to keep it.
+fn archive<'a>(
+    progress: &'a Line,
+    search: &Search,
+    out: Option<&Path>,
+    header: &Header,
+) -> Result<Archive<'a>, Failure> {
+    let budget = search
+        .budget
+        .map(|n| usize::try_from(n).unwrap_or(usize::MAX));
+    let archive = Archive::new(progress)
+        .with_budget(budget)
+        .with_interrupt(interrupt::flag());
+    let Some(folder) = out else {
+        return Ok(archive);
+    };
+    let command = header.digest.split(' ').next().unwrap_or_default();
+    let path = folder.join(format!("{command}.journal"));
+    let cannot = |error: JournalError| match error {
+        JournalError::Io(error) => {
+            Failure::Failed(format!("cannot write {}: {error}", path.display()))
+        }
+        JournalError::Foreign | JournalError::Missing => Failure::Invalid(format!(
+            "error: cannot resume from {}: {error}",
+            path.display()
+        )),
+    };
+    let (journal, recorded) = if search.resume {
+        Journal::resume(&path, header).map_err(cannot)?
+    } else {
+        (Journal::create(&path, header).map_err(cannot)?, Vec::new())
+    };
+    Ok(archive.with_journal(journal, recorded))
+}
+
+/// What a user should know of a run beside its result.
+fn report(archive: &Archive) {
+    if let Some(error) = archive.journal_error() {
+        eprintln!("warning: the journal could not be written ({error}): no --resume from here");
+    }
+    if let Some(stop) = archive.stopped() {
+        eprintln!("ended early: {stop}");
+    }
+}

@@ -1,0 +1,80 @@
+//! How a design stands to what is asked of it, in every condition.
+
+use super::{
+    explain::worst,
+    measure::{Wanted, measure},
+    search::falls_short,
+};
+use crate::{
+    case::Case,
+    index::{Demands, Index},
+    optimize::problem::Failure,
+    spec::Condition,
+};
+
+/// A demand and what a design reaches.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Margin {
+    /// On what.
+    pub index: Index,
+    /// In which condition; `None` for the nominal one.
+    pub condition: Option<String>,
+    /// What is asked for, SI.
+    pub required: f64,
+    /// What is reached, SI, or why there is no such performance.
+    pub reached: Result<f64, Failure>,
+}
+
+impl Margin {
+    /// Whether the demand is met, but for a ten-thousandth.
+    pub fn met(&self) -> bool {
+        self.reached
+            .as_ref()
+            .is_ok_and(|reached| !falls_short(self.index, self.required, *reached))
+    }
+
+    /// Path of the demand in the spec.
+    pub fn key(&self) -> String {
+        match &self.condition {
+            Some(name) => format!("conditions.{name}.{}", self.index.path()),
+            None => self.index.path().into(),
+        }
+    }
+}
+
+/// Value of an index in a case, SI.
+///
+/// # Errors
+///
+/// [`Failure`] where the case has no such performance.
+pub fn value(case: &Case, index: Index) -> Result<f64, Failure> {
+    let pieces = measure(case, &[Wanted::Index(index)])?;
+    pieces
+        .first()
+        .and_then(|pieces| worst(index, pieces))
+        .ok_or(Failure::NoMode)
+}
+
+/// All demands on a design.
+pub fn margins(case: &Case, demands: &Demands, conditions: &[Condition]) -> Vec<Margin> {
+    let nominal = std::iter::once((None, case.clone(), demands.clone()));
+    let further = conditions.iter().map(|condition| {
+        let demands = demands.overridden(&condition.demands);
+        (Some(condition.name.clone()), condition.apply(case), demands)
+    });
+    nominal
+        .chain(further)
+        .flat_map(|(condition, case, demands)| {
+            let margins: Vec<Margin> = demands
+                .iter()
+                .map(|demand| Margin {
+                    index: demand.index,
+                    condition: condition.clone(),
+                    required: demand.bound,
+                    reached: value(&case, demand.index),
+                })
+                .collect();
+            margins
+        })
+        .collect()
+}

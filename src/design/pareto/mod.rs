@@ -1,0 +1,389 @@
+//! Pareto fronts between two or three indices by the ε-constraint method (Haimes, Lasdon, Wismer
+//! 1971): one index is made as good as can be while the others keep a bound, and the bounds sweep
+//! the front.
+//!
+//! Every point is a converged constrained optimum, started from its neighbours' designs. The ends
+//! are the designs best in each index alone, and of those the best in the others. Where
+//! neighbouring points are far apart, a point is put between them. Three indices are swept in
+//! slices of the first.
+
+mod front;
+
+use std::collections::BTreeMap;
+
+pub use front::FrontPoint;
+
+use super::{explain::Explained, margin::value, search::search, study::Study, tasks::Tasks};
+use crate::{
+    case::Case,
+    index::{Index, Sense},
+    optimize::{
+        archive::{Archive, Stop},
+        local::{Status, WIDE},
+        problem::Failure,
+        solve::{NoDesign, Start},
+    },
+    parameter::Parameter,
+    spec::Spec,
+};
+use front::{badness, clean, distance, dominates, extents, of_badness, thin};
+
+/// A front.
+#[derive(Debug, Clone)]
+pub struct Front {
+    /// What is traded off, in the order asked for.
+    pub indices: Vec<Index>,
+    /// The parameters that vary, the conicity among them where it is chosen from profiles.
+    pub parameters: Vec<Parameter>,
+    /// Points, none of which another dominates, in the order of the first index.
+    pub points: Vec<FrontPoint>,
+    /// Points found but dominated by others.
+    pub dominated: usize,
+    /// Why the run ended early, if it did.
+    pub stopped: Option<Stop>,
+    /// Full-model evaluations.
+    pub evaluations: usize,
+    /// Of which without a result, by reason.
+    pub failures: BTreeMap<Failure, usize>,
+}
+
+/// By how much a bound that is an end of the front is loosened to choose among the designs that
+/// reach it, in badness.
+const END: f64 = 1e-4;
+/// Share of the points that is laid evenly before gaps are looked at.
+const EVEN: f64 = 0.6;
+/// Fewest points that show the shape of one profile's front.
+const SHAPE: usize = 6;
+
+/// Traces the front of a spec.
+///
+/// # Errors
+///
+/// [`NoDesign`] if no design could be evaluated at all.
+pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
+    let indices = &spec.front.indices;
+    let tasks = Tasks::new(spec);
+    let profiles = tasks.profiles(&spec.case);
+    // A profile may lose half of its points to others.
+    let wanted = match profiles.len() {
+        1 => spec.front.points,
+        n => (2 * spec.front.points).div_ceil(n).max(SHAPE),
+    };
+    let mut points = Vec::new();
+    let mut failure = None;
+    let mut parameters = Vec::new();
+    for conicity in &profiles {
+        let mut case = spec.case.clone();
+        case.wheel_rail.conicity = *conicity;
+        let tracer = Tracer {
+            study: tasks.bare(&case, indices),
+            indices,
+            seed: spec.design.seed,
+            archive,
+            name: match profiles.len() {
+                1 => "front".into(),
+                _ => format!("front of conicity {conicity}"),
+            },
+        };
+        parameters = tracer.study.parameters().to_vec();
+        match tracer.front(indices, &[], wanted) {
+            Ok(found) => points.extend(found),
+            Err(reason) => failure = Some(reason),
+        }
+        if archive.stopped().is_some() {
+            break;
+        }
+    }
+    if points.is_empty()
+        && let Some(reason) = failure
+    {
+        return Err(reason);
+    }
+    if profiles.len() > 1 {
+        parameters.push(Parameter::Conicity);
+    }
+    let dominated = clean(&mut points, indices);
+    thin(&mut points, indices, spec.front.points);
+    points.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
+    Ok(Front {
+        indices: indices.clone(),
+        parameters,
+        points,
+        dominated,
+        stopped: archive.stopped(),
+        evaluations: archive.count(),
+        failures: archive.failures(),
+    })
+}
+
+struct Tracer<'a> {
+    /// Parameters and demands, without those on the indices traded off.
+    study: Study,
+    indices: &'a [Index],
+    seed: u64,
+    archive: &'a Archive<'a>,
+    name: String,
+}
+
+type Bounds = Vec<(Index, f64)>;
+
+impl Tracer<'_> {
+    /// The front between `indices` where `bounds` on others are kept.
+    fn front(
+        &self,
+        indices: &[Index],
+        bounds: &[(Index, f64)],
+        wanted: usize,
+    ) -> Result<Vec<FrontPoint>, NoDesign> {
+        // The critical speed is kept rather than pushed: as a bound it changes smoothly.
+        let kept = indices
+            .iter()
+            .copied()
+            .find(|i| *i == Index::CriticalSpeed)
+            .unwrap_or(indices[0]);
+        let rest: Vec<Index> = indices.iter().copied().filter(|i| *i != kept).collect();
+        let mut points = self.ends(indices, bounds)?;
+        let badness = points.iter().map(|p| self.badness_of(p, kept));
+        let low = badness.clone().fold(f64::INFINITY, f64::min);
+        let high = badness.fold(f64::NEG_INFINITY, f64::max);
+        let wanted = wanted.saturating_sub(points.len());
+        if wanted == 0 || low >= high {
+            return Ok(points);
+        }
+        if let [objective] = rest[..] {
+            let between = Between {
+                objective,
+                kept,
+                bounds,
+            };
+            self.even(&between, [low, high], &mut points, wanted);
+            self.refine(&between, &mut points, wanted);
+            self.mend(&mut points);
+        } else {
+            let slices = wanted.isqrt().max(2);
+            for k in 0..slices {
+                let t = (k as f64 + 0.5) / slices as f64;
+                let level = of_badness(kept, low + t * (high - low));
+                let mut bounds: Bounds = bounds.to_vec();
+                bounds.push((kept, level));
+                if self.archive.stopped().is_some() {
+                    break;
+                }
+                // A slice without a design adds nothing.
+                if let Ok(slice) = self.front(&rest, &bounds, wanted.div_ceil(slices)) {
+                    points.extend(slice);
+                }
+            }
+        }
+        Ok(points)
+    }
+
+    /// The best in every index alone, and among the designs that reach it the best in another.
+    fn ends(
+        &self,
+        indices: &[Index],
+        bounds: &[(Index, f64)],
+    ) -> Result<Vec<FrontPoint>, NoDesign> {
+        let mut points: Vec<FrontPoint> = Vec::new();
+        for best in indices {
+            self.announce(&format!("the best {}", best.words()));
+            let known = points.iter().map(|p| p.x.clone()).collect();
+            let start = Start::everywhere(self.seed).with(known);
+            let Some(alone) = self.solve(*best, bounds, &start)? else {
+                continue;
+            };
+            let reached = of_badness(*best, self.badness_of(&alone, *best) + END);
+            for other in indices.iter().filter(|i| *i != best) {
+                let mut bounds: Bounds = bounds.to_vec();
+                bounds.push((*best, reached));
+                let near = Start {
+                    radius: WIDE,
+                    ..Start::near(vec![alone.x.clone()])
+                };
+                if self.archive.stopped().is_none()
+                    && let Ok(Some(end)) = self.solve(*other, &bounds, &near)
+                {
+                    points.push(end);
+                }
+            }
+            points.push(alone);
+        }
+        Ok(points)
+    }
+
+    /// Points at even steps of the index kept, each searched for everywhere.
+    fn even(
+        &self,
+        between: &Between,
+        [low, high]: [f64; 2],
+        points: &mut Vec<FrontPoint>,
+        wanted: usize,
+    ) {
+        let steps = (1..=wanted).filter(|k| *k as f64 <= (EVEN * wanted as f64).ceil());
+        let steps = steps.count();
+        for k in 1..=steps {
+            if self.archive.stopped().is_some() {
+                return;
+            }
+            self.announce(&format!("point {k} of {steps}"));
+            let level = low + k as f64 / (steps + 1) as f64 * (high - low);
+            points.extend(self.level(between, level, points, true));
+        }
+    }
+
+    /// Puts points into the widest gaps until there are `wanted` beside the ends.
+    fn refine(&self, between: &Between, points: &mut Vec<FrontPoint>, wanted: usize) {
+        let mut tried: Vec<f64> = Vec::new();
+        let mut front = points.clone();
+        clean(&mut front, self.indices);
+        while front.len() < wanted && tried.len() < wanted {
+            let pair = [between.kept, between.objective];
+            let of = |p: &FrontPoint| pair.map(|i| self.badness_of(p, i)).to_vec();
+            let mut badness: Vec<Vec<f64>> = front.iter().map(of).collect();
+            badness.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            let extents = extents(&badness);
+            let widest = badness
+                .windows(2)
+                .map(|w| {
+                    (
+                        distance(&w[0], &w[1], &extents),
+                        f64::midpoint(w[0][0], w[1][0]),
+                    )
+                })
+                .filter(|(_, middle)| !tried.iter().any(|t| (t - middle).abs() < 1e-9))
+                .max_by(|a, b| a.0.total_cmp(&b.0));
+            let (Some((_, middle)), None) = (widest, self.archive.stopped()) else {
+                break;
+            };
+            tried.push(middle);
+            self.announce(&format!("gap {}", tried.len()));
+            if let Some(point) = self.level(between, middle, points, false) {
+                points.push(point.clone());
+                front.push(point);
+                clean(&mut front, self.indices);
+            }
+        }
+    }
+
+    /// The best objective where the index kept is no worse than `level`, in badness.
+    fn level(
+        &self,
+        between: &Between,
+        level: f64,
+        known: &[FrontPoint],
+        everywhere: bool,
+    ) -> Option<FrontPoint> {
+        let mut bounds: Bounds = between.bounds.to_vec();
+        bounds.push((between.kept, of_badness(between.kept, level)));
+        // The nearest on either side.
+        let side = |above: bool| {
+            let on_side = known.iter().filter(|p| {
+                let badness = self.badness_of(p, between.kept);
+                (badness > level) == above
+            });
+            on_side.min_by(|a, b| {
+                let far = |p: &FrontPoint| (self.badness_of(p, between.kept) - level).abs();
+                far(a).total_cmp(&far(b))
+            })
+        };
+        let near: Vec<Vec<f64>> = [side(false), side(true)]
+            .into_iter()
+            .flatten()
+            .map(|p| p.x.clone())
+            .collect();
+        let start = if everywhere {
+            Start::everywhere(self.seed).with(near)
+        } else {
+            Start {
+                radius: WIDE / 2.0,
+                ..Start::near(near)
+            }
+        };
+        self.solve(between.objective, &bounds, &start)
+            .ok()
+            .flatten()
+    }
+
+    /// Searches again where another point's design is better than what was found.
+    fn mend(&self, points: &mut [FrontPoint]) {
+        for i in 0..points.len() {
+            let badness = points[i].badness(self.indices);
+            let better = points
+                .iter()
+                .find(|p| dominates(&p.badness(self.indices), &badness));
+            let Some(better) = better.filter(|_| !points[i].bounds.is_empty()) else {
+                continue;
+            };
+            if self.archive.stopped().is_some() {
+                return;
+            }
+            let start = Start::near(vec![better.x.clone()]);
+            let (objective, bounds) = (points[i].objective, points[i].bounds.clone());
+            if let Ok(Some(point)) = self.solve(objective, &bounds, &start) {
+                points[i] = point;
+            }
+        }
+    }
+
+    /// One point; `None` if no design found keeps the bounds, or the run ended before it converged.
+    fn solve(
+        &self,
+        objective: Index,
+        bounds: &[(Index, f64)],
+        start: &Start,
+    ) -> Result<Option<FrontPoint>, NoDesign> {
+        let mut study = self.study.clone();
+        for condition in 0..study.conditions() {
+            study = study.optimise(condition, objective, 0, 1.0);
+            for (index, bound) in bounds {
+                study = study.demand(condition, *index, *bound);
+            }
+        }
+        let solved = search(&study, start, self.archive)?;
+        let ended = matches!(solved.status, Status::BudgetSpent | Status::Interrupted);
+        if ended || !solved.point.feasible() {
+            return Ok(None);
+        }
+        let x = solved.point.x.clone();
+        let case = study.design(&x);
+        let worst = |index: &Index| worst_over_conditions(&study, &case, *index);
+        Ok(Some(FrontPoint {
+            values: self.indices.iter().map(worst).collect(),
+            explained: Explained::new(&study, &solved, format!("best {}", objective.words())),
+            case,
+            x,
+            bounds: bounds.to_vec(),
+            objective,
+        }))
+    }
+
+    fn badness_of(&self, point: &FrontPoint, index: Index) -> f64 {
+        let at = self.indices.iter().position(|i| *i == index).unwrap_or(0);
+        badness(index, point.values[at])
+    }
+
+    fn announce(&self, what: &str) {
+        self.archive.stage(&format!("{}, {what}", self.name));
+    }
+}
+
+/// A front in two indices within bounds on others.
+struct Between<'a> {
+    objective: Index,
+    kept: Index,
+    bounds: &'a [(Index, f64)],
+}
+
+/// Value of an index, the worst over the conditions of a study.
+fn worst_over_conditions(study: &Study, case: &Case, index: Index) -> f64 {
+    let values = (0..study.conditions()).map(|condition| {
+        value(&study.in_condition(case, condition), index).unwrap_or(match index.sense() {
+            Sense::AtLeast => 0.0,
+            Sense::AtMost => f64::INFINITY,
+        })
+    });
+    match index.sense() {
+        Sense::AtLeast => values.fold(f64::INFINITY, f64::min),
+        Sense::AtMost => values.fold(f64::NEG_INFINITY, f64::max),
+    }
+}

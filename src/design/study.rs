@@ -1,0 +1,429 @@
+//! A design study: parameters that may vary, indices to be as good as can be, and demands, over one
+//! or several operating conditions, as a problem for the optimiser.
+
+use super::measure::{Wanted, measure, piece_name};
+use crate::{
+    case::Case,
+    index::{Index, Scale, Sense},
+    optimize::problem::{self, FEASIBLE, Failure, Key, Piece, Problem, Values, Variable},
+    parameter::Parameter,
+    spec::{Condition, Interval},
+};
+
+/// How a parameter that does not vary follows from the rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rule {
+    /// A value, SI.
+    Fixed(f64),
+    /// A multiple of another parameter.
+    Tied {
+        /// The other.
+        to: Parameter,
+        /// Value over the other's.
+        ratio: f64,
+    },
+}
+
+/// What an index is to a study.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Role {
+    /// Part of objective number `group`: the worst of a group counts, the groups add up.
+    Objective {
+        /// Which.
+        group: usize,
+        /// Weight of its relative change.
+        weight: f64,
+        /// Value from which the change is counted, SI.
+        origin: f64,
+    },
+    /// Must keep a bound, SI.
+    Constraint {
+        /// Least or greatest value.
+        bound: f64,
+    },
+}
+
+/// An index in an operating condition, and what it is to the study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Term {
+    /// Which condition.
+    pub condition: usize,
+    /// Which index.
+    pub index: Index,
+    /// What for.
+    pub role: Role,
+    /// Pieces that count; `None`: all.
+    pub only: Option<&'static [usize]>,
+    wanted: Wanted,
+}
+
+/// The study as a problem for the optimiser.
+#[derive(Debug, Clone)]
+pub struct Study {
+    base: Case,
+    conditions: Vec<Option<Condition>>,
+    parameters: Vec<Parameter>,
+    variables: Vec<Variable>,
+    rules: Vec<(Parameter, Rule)>,
+    terms: Vec<Term>,
+}
+
+/// Pieces of one term.
+const PIECES: usize = 256;
+/// A difference of damping ratio of 1/3 counts as much as a factor e: near the critical speed of
+/// passenger trucks that is about what doubling the speed costs.
+const DAMPING: f64 = 3.0;
+/// Damping ratios this far above what is asked hold nothing back.
+const AMPLE: f64 = 0.05;
+/// Share of a bound below which a value counts as that share.
+const LEAST: f64 = 1e-9;
+
+impl Study {
+    /// A case in the nominal condition (number 0) and further ones, with nothing to vary yet.
+    pub fn new(base: &Case, conditions: &[Condition]) -> Self {
+        let further = conditions.iter().cloned().map(Some);
+        Self {
+            base: base.clone(),
+            conditions: std::iter::once(None).chain(further).collect(),
+            parameters: Vec::new(),
+            variables: Vec::new(),
+            rules: Vec::new(),
+            terms: Vec::new(),
+        }
+    }
+
+    /// Lets a parameter vary between bounds, on a logarithmic scale unless a bound is zero or the
+    /// parameter is the conicity, between whose rows the report's table is linear.
+    #[must_use]
+    pub fn vary(mut self, parameter: Parameter, bounds: Interval) -> Self {
+        let logarithmic = bounds.lower > 0.0 && parameter != Parameter::Conicity;
+        self.parameters.push(parameter);
+        self.variables.push(Variable {
+            name: parameter.words(),
+            symbol: parameter.symbol(),
+            quantity: parameter.quantity(),
+            bounds: bounds.into(),
+            scale: if logarithmic {
+                problem::Scale::Logarithmic
+            } else {
+                problem::Scale::Linear
+            },
+        });
+        self
+    }
+
+    /// Sets a parameter by a rule.
+    #[must_use]
+    pub fn rule(mut self, parameter: Parameter, rule: Rule) -> Self {
+        self.rules.push((parameter, rule));
+        self
+    }
+
+    /// Adds an index to objective `group` in one condition.
+    #[must_use]
+    pub fn optimise(self, condition: usize, index: Index, group: usize, weight: f64) -> Self {
+        self.optimise_from(condition, index, group, weight, 1.0)
+    }
+
+    /// Adds an index to objective `group`, its change counted from `origin`, SI: with several in
+    /// one group the one that has gained least is improved.
+    #[must_use]
+    pub fn optimise_from(
+        self,
+        condition: usize,
+        index: Index,
+        group: usize,
+        weight: f64,
+        origin: f64,
+    ) -> Self {
+        let role = Role::Objective {
+            group,
+            weight,
+            origin,
+        };
+        self.with(condition, index, role, None)
+    }
+
+    /// Demands that an index keeps a bound, SI, in one condition.
+    #[must_use]
+    pub fn demand(self, condition: usize, index: Index, bound: f64) -> Self {
+        self.with(condition, index, Role::Constraint { bound }, None)
+    }
+
+    /// As [`Study::demand`], of some pieces of the index only.
+    #[must_use]
+    pub fn demand_of(
+        self,
+        condition: usize,
+        index: Index,
+        bound: f64,
+        pieces: &'static [usize],
+    ) -> Self {
+        self.with(condition, index, Role::Constraint { bound }, Some(pieces))
+    }
+
+    fn with(
+        mut self,
+        condition: usize,
+        index: Index,
+        role: Role,
+        only: Option<&'static [usize]>,
+    ) -> Self {
+        let wanted = match (index, role) {
+            // Damping over the range changes smoothly where the critical speed itself jumps.
+            (Index::CriticalSpeed, Role::Constraint { bound }) => Wanted::DampingTo {
+                speed: bound,
+                below: AMPLE,
+            },
+            (Index::LeastDampingRatioToSpeed, Role::Constraint { bound }) => Wanted::DampingTo {
+                speed: self.in_condition(&self.base, condition).service.speed,
+                below: bound + AMPLE,
+            },
+            _ => Wanted::Index(index),
+        };
+        self.terms.push(Term {
+            condition,
+            index,
+            role,
+            only,
+            wanted,
+        });
+        self
+    }
+
+    /// The study with other roles for its terms; `None` leaves a term out.
+    #[must_use]
+    pub fn with_roles(&self, role: impl Fn(usize, &Term) -> Option<Role>) -> Self {
+        let mut study = Self {
+            terms: Vec::new(),
+            ..self.clone()
+        };
+        for (i, term) in self.terms.iter().enumerate() {
+            if let Some(role) = role(i, term) {
+                study = study.with(term.condition, term.index, role, term.only);
+            }
+        }
+        study
+    }
+
+    /// Its terms.
+    pub fn terms(&self) -> &[Term] {
+        &self.terms
+    }
+
+    /// The parameters that vary, in the order of the variables.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// Number of conditions, the nominal one included.
+    pub fn conditions(&self) -> usize {
+        self.conditions.len()
+    }
+
+    /// Name of a condition; `None` for the nominal one.
+    pub fn condition_name(&self, condition: usize) -> Option<&str> {
+        self.conditions[condition].as_ref().map(|c| c.name.as_str())
+    }
+
+    /// The nominal case of the design at scaled coordinates `x`.
+    pub fn design(&self, x: &[f64]) -> Case {
+        let mut case = self.base.clone();
+        // Twice: a rule may depend on what is set after it.
+        for _ in 0..2 {
+            for parameter in Parameter::ALL {
+                if let Some(i) = self.parameters.iter().position(|p| *p == parameter) {
+                    parameter.set(&mut case, self.variables[i].value(x[i]));
+                }
+                if let Some((_, rule)) = self.rules.iter().find(|(p, _)| *p == parameter) {
+                    let value = match rule {
+                        Rule::Fixed(value) => *value,
+                        Rule::Tied { to, ratio } => ratio * to.get(&case),
+                    };
+                    parameter.set(&mut case, value);
+                }
+            }
+        }
+        case
+    }
+
+    /// A case in a condition.
+    pub fn in_condition(&self, case: &Case, condition: usize) -> Case {
+        match &self.conditions[condition] {
+            Some(c) => c.apply(case),
+            None => case.clone(),
+        }
+    }
+
+    /// Scaled coordinates of the design of a case.
+    pub fn coordinates(&self, case: &Case) -> Vec<f64> {
+        let pairs = self.parameters.iter().zip(&self.variables);
+        pairs
+            .map(|(parameter, variable)| variable.coordinate(parameter.get(case)))
+            .collect()
+    }
+
+    /// The term to which a piece of objective or constraint belongs.
+    pub fn term_of(&self, piece: usize) -> usize {
+        piece / PIECES
+    }
+
+    /// Change of a term's constraint value per change of its bound, at scaled coordinates `x`.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`] as of any measurement: for the critical speed damping is looked up a little
+    /// faster.
+    pub fn slope_of_bound(&self, piece: &Piece, x: &[f64]) -> Result<f64, Failure> {
+        let term = &self.terms[self.term_of(piece.index)];
+        let Role::Constraint { bound } = term.role else {
+            return Ok(0.0);
+        };
+        if term.index == Index::CriticalSpeed {
+            const STEP: f64 = 1e-4;
+            let case = self.in_condition(&self.design(x), term.condition);
+            let wanted = Wanted::DampingTo {
+                speed: bound * (1.0 + STEP),
+                below: AMPLE,
+            };
+            let pieces = measure(&case, &[wanted])?.remove(0);
+            let faster = pieces
+                .iter()
+                .filter(|p| p.index == piece.index % PIECES)
+                .map(|p| (-DAMPING * p.value, (p.label - piece.label).abs()))
+                .min_by(|a, b| a.1.total_cmp(&b.1));
+            return Ok(faster.map_or(0.0, |(value, _)| (value - piece.value) / (STEP * bound)));
+        }
+        Ok(match (term.index.scale(), term.index.sense()) {
+            (Scale::Linear, _) => DAMPING,
+            (Scale::Logarithmic, Sense::AtLeast) => 1.0 / bound,
+            (Scale::Logarithmic, Sense::AtMost) => -1.0 / bound,
+        })
+    }
+
+    /// Value of a term at which objective pieces come out as `value`, SI.
+    pub fn index_at(&self, term: &Term, value: f64) -> Option<f64> {
+        let Role::Objective { weight, origin, .. } = term.role else {
+            return None;
+        };
+        let worse = value / weight;
+        Some(match (term.index.scale(), term.index.sense()) {
+            (Scale::Linear, _) => origin - worse / DAMPING,
+            (Scale::Logarithmic, Sense::AtLeast) => origin * (-worse).exp(),
+            (Scale::Logarithmic, Sense::AtMost) => origin * worse.exp(),
+        })
+    }
+}
+
+impl Term {
+    fn scaled(&self, value: f64) -> f64 {
+        let worse_than = |origin: f64| match (self.index.scale(), self.index.sense()) {
+            (Scale::Linear, _) => DAMPING * (origin - value),
+            (Scale::Logarithmic, Sense::AtLeast) => -(value / origin).max(LEAST).ln(),
+            (Scale::Logarithmic, Sense::AtMost) => (value / origin).max(LEAST).ln(),
+        };
+        match self.role {
+            Role::Objective { weight, origin, .. } => weight * worse_than(origin),
+            Role::Constraint { bound } => {
+                // What the optimiser lets pass lies on the right side of the bound.
+                FEASIBLE
+                    + match self.wanted {
+                        Wanted::DampingTo { .. } if self.index == Index::CriticalSpeed => {
+                            -DAMPING * value
+                        }
+                        _ => worse_than(bound),
+                    }
+            }
+        }
+    }
+}
+
+impl Problem for Study {
+    fn variables(&self) -> &[Variable] {
+        &self.variables
+    }
+
+    fn piece_name(&self, index: usize) -> String {
+        let term = &self.terms[self.term_of(index)];
+        let mut name = term.index.words().to_owned();
+        let piece = piece_name(term.wanted, index % PIECES);
+        if !piece.is_empty() {
+            name = match term.index {
+                Index::DegreeCurve | Index::FlangeLimitedCurve | Index::SlipLimitedCurve => piece,
+                _ => format!("{name}, {piece}"),
+            };
+        }
+        match self.condition_name(term.condition) {
+            Some(condition) => format!("{name} ({condition})"),
+            None => name,
+        }
+    }
+
+    fn key(&self, x: &[f64]) -> Key {
+        let terms = self.terms.iter();
+        let what: Vec<String> = terms
+            .map(|t| match self.condition_name(t.condition) {
+                Some(name) => format!("{}/{name}", t.wanted),
+                None => t.wanted.to_string(),
+            })
+            .collect();
+        let case = self.design(x);
+        Key {
+            what: what.join(" "),
+            at: Parameter::TEN.map(|p| p.get(&case)).to_vec(),
+        }
+    }
+
+    fn measure(&self, x: &[f64]) -> Result<Vec<Piece>, Failure> {
+        let case = self.design(x);
+        let mut measured = Vec::new();
+        for condition in 0..self.conditions.len() {
+            let numbered = self.terms.iter().enumerate();
+            let here: Vec<(usize, &Term)> =
+                numbered.filter(|(_, t)| t.condition == condition).collect();
+            if here.is_empty() {
+                continue;
+            }
+            let wanted: Vec<Wanted> = here.iter().map(|(_, t)| t.wanted).collect();
+            let case = self.in_condition(&case, condition);
+            for ((i, _), pieces) in here.iter().zip(measure(&case, &wanted)?) {
+                measured.extend(pieces.into_iter().map(|p| Piece {
+                    index: i * PIECES + p.index,
+                    ..p
+                }));
+            }
+        }
+        Ok(measured)
+    }
+
+    fn judge(&self, measured: &[Piece]) -> Values {
+        let groups = self.terms.iter().filter_map(|t| match t.role {
+            Role::Objective { group, .. } => Some(group + 1),
+            Role::Constraint { .. } => None,
+        });
+        let mut values = Values {
+            objectives: vec![Vec::new(); groups.max().unwrap_or(0)],
+            constraints: Vec::new(),
+        };
+        for piece in measured {
+            let term = &self.terms[self.term_of(piece.index)];
+            if term
+                .only
+                .is_some_and(|only| !only.contains(&(piece.index % PIECES)))
+            {
+                continue;
+            }
+            let scaled = Piece {
+                value: term.scaled(piece.value),
+                ..*piece
+            };
+            match term.role {
+                Role::Objective { group, .. } => values.objectives[group].push(scaled),
+                Role::Constraint { .. } => values.constraints.push(scaled),
+            }
+        }
+        // A group without pieces is no objective.
+        values.objectives.retain(|pieces| !pieces.is_empty());
+        values
+    }
+}

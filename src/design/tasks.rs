@@ -1,0 +1,287 @@
+//! The studies that a spec asks for: one per trade-off of the report, and all at once.
+
+use super::study::{Rule, Study};
+use crate::{
+    case::Case,
+    index::{Behaviour, Demands, Index},
+    parameter::{Parameter, TradeOff},
+    spec::{Condition, DesignSpace, Freedom, Goal, Spec},
+};
+
+/// A study with its goal in words.
+#[derive(Debug, Clone)]
+pub struct Task {
+    /// The trade-off; `None` for all at once.
+    pub trade_off: Option<TradeOff>,
+    /// What is made as good as can be.
+    pub goal: String,
+    /// The problem.
+    pub study: Study,
+}
+
+/// What a spec asks for.
+pub struct Tasks<'a> {
+    space: &'a DesignSpace,
+    objective: &'a [Goal],
+    demands: &'a Demands,
+    conditions: &'a [Condition],
+}
+
+/// Which pieces of an index a trade-off's parameters decide, so that it keeps the demand on them.
+enum Concern {
+    None,
+    All,
+    Pieces(&'static [usize]),
+}
+
+fn concern(trade_off: TradeOff, index: Index) -> Concern {
+    use TradeOff::{Lateral, StabilityCurving, Vertical};
+    let concerned = match (trade_off, index) {
+        // Pieces of the frequency separation: lateral, vertical, roll, yaw, pitch.
+        (Vertical, Index::FrequencySeparation) => return Concern::Pieces(&[1, 4]),
+        (Lateral, Index::FrequencySeparation) => return Concern::Pieces(&[0, 2]),
+        (StabilityCurving, Index::FrequencySeparation) => return Concern::Pieces(&[3]),
+        (Vertical, _) => matches!(
+            index.behaviour(),
+            Behaviour::VerticalRide | Behaviour::Statics
+        ),
+        (Lateral, _) => index.behaviour() == Behaviour::LateralRide,
+        (
+            StabilityCurving,
+            Index::PrimaryLateralStroke
+            | Index::PrimaryLongitudinalStroke
+            | Index::WheelsetExcursion,
+        ) => true,
+        (StabilityCurving, _) => {
+            matches!(index.behaviour(), Behaviour::Stability | Behaviour::Curving)
+        }
+    };
+    if concerned {
+        Concern::All
+    } else {
+        Concern::None
+    }
+}
+
+impl<'a> Tasks<'a> {
+    /// The tasks of a spec.
+    pub fn new(spec: &'a Spec) -> Self {
+        Self {
+            space: &spec.design,
+            objective: &spec.objective,
+            demands: &spec.demands,
+            conditions: &spec.conditions,
+        }
+    }
+
+    /// Whether a trade-off has anything to choose.
+    pub fn open(&self, trade_off: TradeOff) -> bool {
+        self.space.parameters.iter().any(|(parameter, freedom)| {
+            parameter.trade_off() == trade_off
+                && matches!(freedom, Freedom::Between(_) | Freedom::Choices(_))
+        })
+    }
+
+    /// Conicities of the profiles to choose from, the one at hand first: what it reaches tells
+    /// early which others have no hope. None to choose from: the case's own.
+    pub fn profiles(&self, case: &Case) -> Vec<f64> {
+        let own = case.wheel_rail.conicity;
+        let mut profiles = match self.space.freedom(Parameter::Conicity) {
+            Some(Freedom::Choices(choices)) => choices.clone(),
+            _ => vec![own],
+        };
+        profiles.sort_by(|a, b| (a - own).abs().total_cmp(&(b - own).abs()));
+        profiles
+    }
+
+    /// What is asked in a condition, the nominal one being number 0.
+    fn demands_in(&self, condition: usize) -> Demands {
+        match condition.checked_sub(1) {
+            None => self.demands.clone(),
+            Some(i) => self.demands.overridden(&self.conditions[i].demands),
+        }
+    }
+
+    /// A study of the parameters that `varies` selects, with all rules and no terms yet.
+    fn study(&self, case: &Case, varies: impl Fn(Parameter) -> bool) -> Study {
+        let mut study = Study::new(case, self.conditions);
+        for (parameter, freedom) in &self.space.parameters {
+            study = match freedom {
+                Freedom::Between(bounds) if varies(*parameter) => study.vary(*parameter, *bounds),
+                Freedom::Between(_) | Freedom::Choices(_) => study,
+                Freedom::Fixed(value) => study.rule(*parameter, Rule::Fixed(*value)),
+                Freedom::Tied { to, ratio } => study.rule(
+                    *parameter,
+                    Rule::Tied {
+                        to: *to,
+                        ratio: *ratio,
+                    },
+                ),
+            };
+        }
+        study
+    }
+
+    /// The objective of a trade-off, its goal in words, and the demands that become objectives.
+    fn objective_of(&self, study: Study, trade_off: TradeOff, group: usize) -> (Study, String) {
+        let ride = |acceleration: Index, stroke: Index| {
+            // With a limit on the stroke, the least acceleration within it decides whether a
+            // required acceleration can be had; without one, the required acceleration allows the
+            // least stroke.
+            if self.demands.get(acceleration).is_some() && self.demands.get(stroke).is_none() {
+                (
+                    vec![(stroke, 1.0)],
+                    "least secondary stroke with the required acceleration",
+                )
+            } else {
+                (
+                    vec![(acceleration, 1.0)],
+                    "least average RMS acceleration within the limits",
+                )
+            }
+        };
+        let (indices, goal) = match trade_off {
+            TradeOff::Vertical => ride(Index::VerticalAcceleration, Index::SecondaryVerticalStroke),
+            TradeOff::Lateral => ride(Index::LateralAcceleration, Index::SecondaryLateralStroke),
+            TradeOff::StabilityCurving => {
+                let speed = self.demands.get(Index::CriticalSpeed);
+                let curve = self.demands.get(Index::DegreeCurve);
+                match (speed, curve) {
+                    (Some(speed), Some(curve)) => (
+                        vec![(Index::CriticalSpeed, speed), (Index::DegreeCurve, curve)],
+                        "largest smaller margin of critical speed and degree curve",
+                    ),
+                    (None, Some(_)) => (
+                        vec![(Index::CriticalSpeed, 1.0)],
+                        "highest critical speed with the required degree curve",
+                    ),
+                    _ => (
+                        vec![(Index::DegreeCurve, 1.0)],
+                        "highest degree curve with the required critical speed",
+                    ),
+                }
+            }
+        };
+        let mut study = study;
+        for condition in 0..study.conditions() {
+            let demands = self.demands_in(condition);
+            for (index, origin) in &indices {
+                // With several indices in one group margins over the demands are compared.
+                let origin = match indices.len() {
+                    1 => *origin,
+                    _ => demands.get(*index).unwrap_or(*origin),
+                };
+                study = study.optimise_from(condition, *index, group, 1.0, origin);
+            }
+        }
+        (study, goal.into())
+    }
+
+    /// Whether a demand already is what a trade-off maximises the margin of.
+    fn is_margin(&self, index: Index) -> bool {
+        let both = self.demands.get(Index::CriticalSpeed).is_some()
+            && self.demands.get(Index::DegreeCurve).is_some();
+        both && matches!(index, Index::CriticalSpeed | Index::DegreeCurve)
+    }
+
+    /// One trade-off of a case (whose other parameters stay).
+    pub fn trade_off(&self, case: &Case, trade_off: TradeOff) -> Task {
+        let study = self.study(case, |parameter| parameter.trade_off() == trade_off);
+        let (mut study, goal) = self.objective_of(study, trade_off, 0);
+        for condition in 0..study.conditions() {
+            for demand in self.demands_in(condition).iter() {
+                if self.is_margin(demand.index) && trade_off == TradeOff::StabilityCurving {
+                    continue;
+                }
+                study = match concern(trade_off, demand.index) {
+                    Concern::None => study,
+                    Concern::All => study.demand(condition, demand.index, demand.bound),
+                    Concern::Pieces(pieces) => {
+                        study.demand_of(condition, demand.index, demand.bound, pieces)
+                    }
+                };
+            }
+        }
+        Task {
+            trade_off: Some(trade_off),
+            goal,
+            study,
+        }
+    }
+
+    /// Everything at once: the spec's own objective, or the sum of the trade-offs'.
+    pub fn joint(&self, case: &Case) -> Task {
+        let mut study = self.study(case, |_| true);
+        let goal;
+        if self.objective.is_empty() {
+            let open: Vec<TradeOff> = [
+                TradeOff::Vertical,
+                TradeOff::StabilityCurving,
+                TradeOff::Lateral,
+            ]
+            .into_iter()
+            .filter(|t| self.open(*t))
+            .collect();
+            let mut goals = Vec::new();
+            for (group, trade_off) in open.iter().enumerate() {
+                let (next, words) = self.objective_of(study, *trade_off, group);
+                study = next;
+                goals.push(words);
+            }
+            goal = match goals.len() {
+                1 => goals.remove(0),
+                _ => "greatest sum of the trade-offs' relative gains".into(),
+            };
+        } else {
+            for (group, aim) in self.objective.iter().enumerate() {
+                for condition in 0..study.conditions() {
+                    study = study.optimise(condition, aim.index, group, aim.weight);
+                }
+            }
+            goal = in_words(self.objective);
+        }
+        for condition in 0..study.conditions() {
+            for demand in self.demands_in(condition).iter() {
+                if !(self.objective.is_empty() && self.is_margin(demand.index)) {
+                    study = study.demand(condition, demand.index, demand.bound);
+                }
+            }
+        }
+        Task {
+            trade_off: None,
+            goal,
+            study,
+        }
+    }
+
+    /// All parameters and demands, with objectives of the caller's.
+    pub fn bare(&self, case: &Case, drop: &[Index]) -> Study {
+        let mut study = self.study(case, |_| true);
+        for condition in 0..study.conditions() {
+            for demand in self.demands_in(condition).iter() {
+                if !drop.contains(&demand.index) {
+                    study = study.demand(condition, demand.index, demand.bound);
+                }
+            }
+        }
+        study
+    }
+}
+
+fn in_words(goals: &[Goal]) -> String {
+    let names: Vec<String> = goals
+        .iter()
+        .map(|goal| {
+            let name = goal.index.words();
+            let adjective = match goal.index.sense() {
+                crate::index::Sense::AtLeast => "highest",
+                crate::index::Sense::AtMost => "least",
+            };
+            match goals.len() {
+                1 => format!("{adjective} {name}"),
+                _ => format!("{adjective} {name} (weight {})", goal.weight),
+            }
+        })
+        .collect();
+    names.join(", ")
+}

@@ -1,0 +1,235 @@
+//! What a design is certified by, in words: how the search ended, what each limit costs, which
+//! demands conflict, what the joint optimisation gained.
+
+use super::{
+    design_text::{status, trade_off, value},
+    number::{both, in_unit, significant},
+    sheet::Sheet,
+};
+use crate::{
+    design::{
+        explain::{Explained, Price},
+        margin::Margin,
+        outcome::DesignResult,
+    },
+    index::{Index, Scale, Sense},
+    optimize::certificate::Curvature,
+    units::DisplayUnit,
+};
+
+/// How the search ended, and what the limits cost.
+pub(super) fn certificate(sheet: &mut Sheet, explained: &Explained) {
+    for price in &explained.prices {
+        sheet.line(&price_line(explained, price));
+    }
+    for chosen in &explained.chosen {
+        if chosen.at_bound.is_some() && chosen.bound_price > 1e-4 {
+            sheet.line(&format!(
+                "10 % beyond the bound on {} would gain about {} %",
+                chosen.variable.symbol,
+                significant(10.0 * chosen.bound_price, 2)
+            ));
+        }
+    }
+    let effort = &explained.effort;
+    let mut parts = vec![status(explained.status).to_owned()];
+    if let Some(residual) = explained.kkt_residual {
+        parts.push(format!("first-order residual {residual:.0e}"));
+    }
+    if let Some(curvature) = explained.curvature {
+        parts.push(
+            match curvature {
+                Curvature::Vertex => "as many active limits as variables",
+                Curvature::Minimum(_) => "a minimum to second order",
+                Curvature::Flat(_) => "flat to second order in some direction",
+                Curvature::Saddle(_) => "not a minimum to second order",
+            }
+            .into(),
+        );
+    }
+    if effort.starts > 1 {
+        parts.push(format!(
+            "{} of {} starts agree",
+            effort.agreed, effort.starts
+        ));
+    }
+    parts.push(format!("{} evaluations", effort.evaluations));
+    sheet.line(&parts.join("; "));
+    if effort.failed() > 0 {
+        let failures: Vec<String> = effort
+            .failures
+            .iter()
+            .map(|(failure, count)| format!("{count} × {failure}"))
+            .collect();
+        sheet.line(&format!("without a result: {}", failures.join("; ")));
+    }
+}
+
+/// As in "critical speed: 1 km/h more costs 0.0068° (1 mph more: 0.011°)".
+fn price_line(explained: &Explained, price: &Price) -> String {
+    let more = match price.index.sense() {
+        Sense::AtLeast => "more",
+        Sense::AtMost => "less",
+    };
+    let name = match &price.condition {
+        Some(condition) => format!("{} ({condition})", price.index.words()),
+        None => price.index.words().into(),
+    };
+    let change = explained.price(price).abs();
+    let quantity = price.index.quantity();
+    let costs = |unit: DisplayUnit, us: bool| {
+        // Damping ratios and other plain numbers by the hundredth.
+        let (step, size) = match (unit.label, price.index.scale()) {
+            ("", Scale::Linear) => ("0.01".into(), 0.01),
+            ("", Scale::Logarithmic) => ("0.1".into(), 0.1),
+            ("in", _) => ("0.1 in".into(), 0.1 * unit.factor),
+            (label, _) => (format!("1 {label}"), unit.factor),
+        };
+        let cost = match explained.objective {
+            Some((index, _)) => objective(index, change * size, us),
+            None => format!(
+                "{} % of the objective",
+                significant(100.0 * change * size, 2)
+            ),
+        };
+        (step, cost)
+    };
+    let (si_step, si) = costs(quantity.si(), false);
+    let (us_step, us) = costs(quantity.us(), true);
+    if si_step == us_step && si == us {
+        format!("{name}: {si_step} {more} costs {si}")
+    } else {
+        format!("{name}: {si_step} {more} costs {si} ({us_step} {more}: {us})")
+    }
+}
+
+fn objective(index: Index, si: f64, us: bool) -> String {
+    let quantity = index.quantity();
+    let unit = if us { quantity.us() } else { quantity.si() };
+    format!("{} of {}", in_unit(unit, si, 2), index.words())
+}
+
+/// Every demand and what is reached.
+pub(super) fn margins(sheet: &mut Sheet, margins: &[Margin]) {
+    if margins.is_empty() {
+        return;
+    }
+    sheet.heading("Requirements and limits");
+    let rows: Vec<Vec<String>> = margins.iter().map(margin_row).collect();
+    sheet.table(
+        &["", "", "asked", "", "reached", "", "margin", ""],
+        &[1, 7],
+        &rows,
+    );
+}
+
+fn margin_row(margin: &Margin) -> Vec<String> {
+    let quantity = margin.index.quantity();
+    let [asked_si, asked_us] = both(quantity, margin.required);
+    let ([si, us], share) = match &margin.reached {
+        Ok(reached) => {
+            let better = match margin.index.sense() {
+                Sense::AtLeast => reached - margin.required,
+                Sense::AtMost => margin.required - reached,
+            };
+            let share = match margin.index.scale() {
+                Scale::Logarithmic => {
+                    let share = 100.0 * better / margin.required;
+                    format!("{:.1} %", if share.abs() < 0.05 { 0.0 } else { share })
+                }
+                Scale::Linear => significant(better, 2),
+            };
+            (both(quantity, *reached), share)
+        }
+        Err(_) => (["none".into(), String::new()], String::new()),
+    };
+    vec![
+        margin.index.words().into(),
+        margin.condition.clone().unwrap_or_default(),
+        asked_si,
+        asked_us,
+        si,
+        us,
+        share,
+        if margin.met() { "met" } else { "NOT MET" }.into(),
+    ]
+}
+
+/// Which demands conflict, and what each alone would have to become.
+pub(super) fn conflict(sheet: &mut Sheet, result: &DesignResult) {
+    let Some(conflict) = &result.conflict else {
+        return;
+    };
+    if conflict.demands.is_empty() {
+        return;
+    }
+    sheet.heading("In conflict");
+    let rows: Vec<Vec<String>> = conflict
+        .demands
+        .iter()
+        .map(|opposed| {
+            let quantity = opposed.index.quantity();
+            let name = match &opposed.condition {
+                Some(condition) => format!("{} ({condition})", opposed.index.words()),
+                None => opposed.index.words().into(),
+            };
+            vec![
+                name,
+                value(quantity, opposed.required),
+                format!("{:.0} %", 100.0 * opposed.share),
+                opposed
+                    .alone
+                    .map_or_else(|| "not enough alone".into(), |v| value(quantity, v)),
+            ]
+        })
+        .collect();
+    sheet.table(
+        &["", "asked", "share", "feasible if it alone became"],
+        &[],
+        &rows,
+    );
+}
+
+/// The joint optimisation beside the sequential design.
+pub(super) fn joint(sheet: &mut Sheet, result: &DesignResult) {
+    let Some(joint) = &result.joint else { return };
+    trade_off(sheet, &joint.stage);
+    let cell = |index: Index, value: &Result<f64, _>| match value {
+        Ok(si) => both(index.quantity(), *si),
+        Err(_) => ["none".into(), String::new()],
+    };
+    let rows: Vec<Vec<String>> = joint
+        .indices
+        .iter()
+        .map(|compared| {
+            let (index, before, after) = (compared.index, &compared.sequential, &compared.joint);
+            let [before_si, before_us] = cell(index, before);
+            let [after_si, after_us] = cell(index, after);
+            let change = match (before, after) {
+                (Ok(b), Ok(a)) => format!("{:+.2} %", 100.0 * (a / b - 1.0)),
+                _ => String::new(),
+            };
+            vec![
+                index.words().into(),
+                before_si,
+                before_us,
+                after_si,
+                after_us,
+                change,
+            ]
+        })
+        .collect();
+    sheet.table(
+        &["", "in turn", "", "all at once", "", "change"],
+        &[],
+        &rows,
+    );
+    sheet.line(&if joint.gain > 1e-4 {
+        format!(
+            "All at once gains {} % in sum over the trade-offs taken in turn.",
+            significant(100.0 * joint.gain, 3)
+        )
+    } else {
+        "All at once gains nothing over the trade-offs taken in turn.".into()
+    });
+}

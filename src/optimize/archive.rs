@@ -1,0 +1,290 @@
+//! The archive of measurements: every full-model evaluation of a run, counted, kept for reuse, and
+//! recorded in a journal from which the run can be resumed.
+//!
+//! A resumed run searches from the start again and takes from the journal what it has measured
+//! before; as the search is deterministic, it goes the same way and ends at the same bits.
+
+use std::{
+    collections::{BTreeMap, HashMap},
+    sync::{
+        Mutex, MutexGuard,
+        atomic::{AtomicBool, Ordering},
+    },
+};
+
+use rayon::prelude::*;
+
+use super::{
+    journal::{Entry, Journal},
+    problem::{Failure, Key, Piece, Problem},
+};
+
+/// What a measurement gave.
+pub type Measured = Result<Vec<Piece>, Failure>;
+
+/// Why a search ended before it was done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Stop {
+    /// The budget of evaluations is spent.
+    #[error("the budget of evaluations is spent")]
+    Budget,
+    /// The user interrupted the run.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// Is told how a long search gets on. Calls come from several threads.
+pub trait Progress: Sync {
+    /// A new part of the work begins.
+    fn stage(&self, what: &str);
+
+    /// This many evaluations are expected in all, as far as one can tell.
+    fn expected(&self, evaluations: usize);
+
+    /// One more full-model evaluation is done.
+    fn evaluated(&self);
+}
+
+/// Progress that nobody watches.
+pub struct Silent;
+
+impl Progress for Silent {
+    fn stage(&self, _: &str) {}
+
+    fn expected(&self, _: usize) {}
+
+    fn evaluated(&self) {}
+}
+
+/// All measurements of a run.
+pub struct Archive<'a> {
+    budget: usize,
+    interrupt: Option<&'a AtomicBool>,
+    progress: &'a dyn Progress,
+    kept: Mutex<Kept>,
+}
+
+#[derive(Default)]
+struct Kept {
+    known: HashMap<Bits, Measured>,
+    /// From the journal of an earlier run, not yet asked for in this one.
+    recorded: HashMap<Bits, Measured>,
+    journal: Option<Journal>,
+    /// Measurements asked for in this run, those from the journal included.
+    count: usize,
+    /// Evaluations expected in all.
+    expected: usize,
+    failures: BTreeMap<Failure, usize>,
+    stopped: Option<Stop>,
+    /// The journal could not be written; the run goes on without it.
+    journal_error: Option<String>,
+}
+
+/// A key whose numbers are compared by their bits.
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct Bits(String, Vec<u64>);
+
+impl From<&Key> for Bits {
+    fn from(key: &Key) -> Self {
+        Self(
+            key.what.clone(),
+            key.at.iter().map(|x| x.to_bits()).collect(),
+        )
+    }
+}
+
+impl<'a> Archive<'a> {
+    /// An empty archive without a budget.
+    pub fn new(progress: &'a dyn Progress) -> Self {
+        Self {
+            budget: usize::MAX,
+            interrupt: None,
+            progress,
+            kept: Mutex::default(),
+        }
+    }
+
+    /// Allows at most `budget` evaluations in all.
+    #[must_use]
+    pub fn with_budget(self, budget: Option<usize>) -> Self {
+        Self {
+            budget: budget.unwrap_or(usize::MAX),
+            ..self
+        }
+    }
+
+    /// Stops as soon as `interrupt` is set.
+    #[must_use]
+    pub fn with_interrupt(self, interrupt: &'a AtomicBool) -> Self {
+        Self {
+            interrupt: Some(interrupt),
+            ..self
+        }
+    }
+
+    /// Records measurements in a journal, and takes from it what an earlier run recorded.
+    #[must_use]
+    pub fn with_journal(self, journal: Journal, recorded: Vec<Entry>) -> Self {
+        {
+            let mut kept = self.lock();
+            kept.journal = Some(journal);
+            kept.recorded = recorded
+                .into_iter()
+                .map(|entry| (Bits::from(&entry.key), entry.measured))
+                .collect();
+        }
+        self
+    }
+
+    /// Measures designs side by side; what is known is not measured again.
+    ///
+    /// # Errors
+    ///
+    /// [`Stop`] if the budget does not allow all of them (those that it allows are measured), or
+    /// if the run was interrupted.
+    pub fn measure(
+        &self,
+        problem: &dyn Problem,
+        designs: &[Vec<f64>],
+    ) -> Result<Vec<Measured>, Stop> {
+        let keys: Vec<Key> = designs.iter().map(|x| problem.key(x)).collect();
+        let bits: Vec<Bits> = keys.iter().map(Bits::from).collect();
+        // What is new is settled, in order, before anything runs side by side: count, budget and
+        // journal never depend on the threads.
+        let mut new: Vec<(usize, Option<Measured>)> = Vec::new();
+        let mut over_budget = false;
+        {
+            let mut kept = self.lock();
+            if let Some(stop) = kept.stopped {
+                return Err(stop);
+            }
+            for (i, key) in bits.iter().enumerate() {
+                if kept.known.contains_key(key) || new.iter().any(|(j, _)| bits[*j] == *key) {
+                    continue;
+                }
+                if kept.count + new.len() == self.budget {
+                    over_budget = true;
+                    break;
+                }
+                let recorded = kept.recorded.remove(key);
+                new.push((i, recorded));
+            }
+        }
+        let measured: Vec<Option<(usize, Measured, bool)>> = new
+            .into_par_iter()
+            .map(|(i, recorded)| {
+                if self.interrupted() {
+                    return None;
+                }
+                let fresh = recorded.is_none();
+                let measured = recorded.unwrap_or_else(|| finite(problem.measure(&designs[i])));
+                self.progress.evaluated();
+                Some((i, measured, fresh))
+            })
+            .collect();
+        let mut kept = self.lock();
+        for entry in measured {
+            let Some((i, measured, fresh)) = entry else {
+                kept.stopped = Some(Stop::Interrupted);
+                continue;
+            };
+            kept.count += 1;
+            if let Err(failure) = measured {
+                *kept.failures.entry(failure).or_default() += 1;
+            }
+            if fresh {
+                kept.record(&keys[i], &measured);
+            }
+            kept.known.insert(bits[i].clone(), measured);
+        }
+        if kept.stopped.is_none() && over_budget {
+            kept.stopped = Some(Stop::Budget);
+        }
+        if let Some(stop) = kept.stopped {
+            return Err(stop);
+        }
+        Ok(bits.iter().map(|key| kept.known[key].clone()).collect())
+    }
+
+    /// What a design is known to give.
+    pub fn known(&self, key: &Key) -> Option<Measured> {
+        self.lock().known.get(&Bits::from(key)).cloned()
+    }
+
+    /// Evaluations so far.
+    pub fn count(&self) -> usize {
+        self.lock().count
+    }
+
+    /// Failures so far by kind.
+    pub fn failures(&self) -> BTreeMap<Failure, usize> {
+        self.lock().failures.clone()
+    }
+
+    /// Why the run was ended, if it was.
+    pub fn stopped(&self) -> Option<Stop> {
+        self.lock().stopped
+    }
+
+    /// Why the journal is incomplete, if it is.
+    pub fn journal_error(&self) -> Option<String> {
+        self.lock().journal_error.clone()
+    }
+
+    /// Announces work of about so many evaluations.
+    pub fn announce(&self, evaluations: usize) {
+        let mut kept = self.lock();
+        kept.expected = kept.expected.max(kept.count) + evaluations;
+        self.progress.expected(kept.expected);
+    }
+
+    /// Announced work of `evaluations` is done, with however many it took.
+    pub fn settle(&self, evaluations: usize, taken: usize) {
+        let mut kept = self.lock();
+        kept.expected = (kept.expected + taken)
+            .saturating_sub(evaluations)
+            .max(kept.count);
+        self.progress.expected(kept.expected);
+    }
+
+    /// Tells whoever watches that a new part of the work begins.
+    pub fn stage(&self, what: &str) {
+        self.progress.stage(what);
+    }
+
+    fn interrupted(&self) -> bool {
+        self.interrupt
+            .is_some_and(|flag| flag.load(Ordering::Relaxed))
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Kept> {
+        // Nothing panics while it holds the lock.
+        self.kept
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+}
+
+impl Kept {
+    fn record(&mut self, key: &Key, measured: &Measured) {
+        if let Some(journal) = &mut self.journal
+            && let Err(error) = journal.write(key, measured)
+        {
+            self.journal_error = Some(error.to_string());
+            self.journal = None;
+        }
+    }
+}
+
+/// A failed evaluation never turns into a number, nor a number that is none into a result.
+fn finite(measured: Measured) -> Measured {
+    let pieces = measured?;
+    if pieces
+        .iter()
+        .all(|p| p.value.is_finite() && p.label.is_finite())
+    {
+        Ok(pieces)
+    } else {
+        Err(Failure::NotFinite)
+    }
+}

@@ -1,0 +1,106 @@
+//! Further operating conditions: `[conditions.NAME]`.
+//!
+//! A condition is the case with some of its values replaced: another speed or track, worn wheels,
+//! half the creep, a loaded carbody. Requirements and limits hold in every condition, unless it
+//! has its own.
+
+use std::collections::BTreeMap;
+
+use toml::de::DeValue;
+
+use super::demands::demands;
+use super::diagnostic::{Collect, Diagnostic};
+use super::document::Document;
+use super::keys::{self, Key};
+use super::value::number;
+use crate::case::Case;
+use crate::index::{Demands, Index};
+use crate::track::Track;
+
+/// An operating condition beside the nominal one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Condition {
+    /// Its name.
+    pub name: String,
+    /// What it replaces, by path, SI.
+    pub values: Vec<(&'static str, f64)>,
+    /// Its track, if it has its own.
+    pub track: Option<Track>,
+    /// What is asked in it, where that differs.
+    pub demands: Demands,
+}
+
+impl Condition {
+    /// The case in this condition.
+    pub fn apply(&self, case: &Case) -> Case {
+        let mut case = case.clone();
+        for (path, value) in &self.values {
+            if let Some(key) = key(path) {
+                (key.set)(&mut case, *value);
+            }
+        }
+        if let Some(track) = &self.track {
+            case.service.track = track.clone();
+        }
+        case
+    }
+}
+
+fn key(path: &str) -> Option<&'static Key<Case>> {
+    keys::case().find(|key| key.path == path)
+}
+
+/// Paths of what a condition may say.
+fn paths() -> Vec<&'static str> {
+    let mut paths = vec![keys::TRACK];
+    paths.extend(keys::case().map(|key| key.path));
+    paths.extend(Index::ALL.map(Index::path));
+    paths
+}
+
+/// Reads `[conditions]`.
+pub(super) fn read(
+    document: &Document,
+    tracks: &BTreeMap<String, Track>,
+    mistakes: &mut Vec<Diagnostic>,
+) -> Vec<Condition> {
+    let Some(value) = document.get(keys::CONDITIONS) else {
+        return Vec::new();
+    };
+    let table_expected = |span, name: &str| {
+        Diagnostic::at(
+            span,
+            format!("`{name}` is a table"),
+            format!("expected [{name}] with what differs below it"),
+        )
+    };
+    let DeValue::Table(table) = value.get_ref() else {
+        mistakes.push(table_expected(value.span(), "conditions.NAME"));
+        return Vec::new();
+    };
+    let mut conditions = Vec::new();
+    for (name, value) in table {
+        let DeValue::Table(inner) = value.get_ref() else {
+            let path = format!("conditions.{}", name.get_ref());
+            mistakes.push(table_expected(value.span(), &path));
+            continue;
+        };
+        let inner = Document::new(inner, &paths(), mistakes);
+        let mut condition = Condition {
+            name: name.get_ref().to_string(),
+            values: Vec::new(),
+            track: super::case::track(&inner, tracks, mistakes),
+            demands: demands(&inner, mistakes),
+        };
+        for key in keys::case() {
+            if let Some(value) = inner.get(key.path) {
+                let read = number(value, key.name(), key.quantity, key.range);
+                condition
+                    .values
+                    .extend(mistakes.collect(read).map(|si| (key.path, si)));
+            }
+        }
+        conditions.push(condition);
+    }
+    conditions
+}
