@@ -22,6 +22,8 @@ pub enum Command {
     Pareto(Pareto),
     /// Compute every performance index of the design as it stands
     Evaluate(Run),
+    /// Find out which parameters and inputs matter to the performance, and which do not
+    Sensitivity(Sensitivity),
     /// List the modes of vibration, and damping against speed
     Modes(Modes),
     /// Show the vehicle in a curve, its limits and the performance boundary
@@ -104,6 +106,48 @@ pub struct Pareto {
     /// Points of the front (default: those of [pareto] in the spec, or 20)
     #[arg(long, value_name = "N")]
     pub points: Option<usize>,
+}
+
+/// Options of `sensitivity`.
+#[derive(Debug, Args)]
+pub struct Sensitivity {
+    #[command(flatten)]
+    pub source: Source,
+
+    /// Form of the result
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    pub format: TableFormat,
+
+    /// Write the result into this folder instead of to standard output
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// How sensitivity is found
+    #[arg(long, value_enum, default_value_t = Method::Morris)]
+    pub method: Method,
+
+    /// Trajectories of Morris's method (default: 20) or rows of Sobol's (default: 256; best a
+    /// power of two)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=65_536))]
+    pub samples: Option<u32>,
+
+    /// Relative range of every input that is no design parameter, either way
+    #[arg(long, value_name = "SHARE", default_value_t = 0.1)]
+    pub spread: f64,
+
+    /// Indices to look at, separated by commas (default: the report's, and those that the spec
+    /// asks for)
+    #[arg(long, value_name = "INDEX,…", value_delimiter = ',')]
+    pub indices: Vec<String>,
+}
+
+/// How sensitivity is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Method {
+    /// Elementary effects: quick, ranks the factors
+    Morris,
+    /// Shares of the variance: slower, says how much each explains
+    Sobol,
 }
 
 /// Form of a result that is a table.

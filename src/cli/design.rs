@@ -1,4 +1,4 @@
-//! The commands that search: `optimize` and `pareto`.
+//! The commands that take many evaluations: `optimize`, `pareto` and `sensitivity`.
 
 use std::path::Path;
 
@@ -6,9 +6,10 @@ use bogie::{
     design::{
         pareto,
         procedure::{self, DesignError},
+        sensitivity::{self, Factors, Settings, Watch, analysis::indices_of},
     },
     evaluate::warnings::warnings,
-    export::{self, design_json, design_text},
+    export::{self, design_json, design_text, table::Table},
     index::Index,
     optimize::{
         archive::Archive,
@@ -19,7 +20,7 @@ use bogie::{
 
 use super::{
     Done, Failure,
-    arguments::{Optimize, Pareto, Search, TableFormat},
+    arguments::{Method, Optimize, Pareto, Search, Sensitivity, TableFormat},
     commands::{deliver, failed, wrong},
     input, interrupt, output,
     progress::Line,
@@ -31,6 +32,13 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
     let header = header("optimize", &digest);
     let archive = archive(&progress, &call.search, call.run.out.as_deref(), &header)?;
     let designed = procedure::design(&spec, &archive);
+    let matters = designed.as_ref().ok().map(|result| {
+        let watch = Watch {
+            interrupt: Some(interrupt::flag()),
+            progress: &progress,
+        };
+        sensitivity::screen(&result.case, &indices_of(&spec), spec.design.seed, &watch)
+    });
     progress.finish();
     report(&archive);
     let result = designed.map_err(|error| match error {
@@ -44,8 +52,8 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
     deliver(
         &call.run,
         "optimize",
-        || design_text::design(&name, &result, &spec.demands, &warnings),
-        || design_json::design(&name, &result, &spec, &digest, &warnings),
+        || design_text::design(&name, &result, &spec.demands, matters.as_ref(), &warnings),
+        || design_json::design(&name, &result, &spec, &digest, matters.as_ref(), &warnings),
     )?;
     Ok(if result.met() {
         Done::Complete
@@ -62,6 +70,9 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
     } = input::read(&call.source.spec)?;
     if !call.indices.is_empty() {
         spec.front.indices = indices(&call.indices)?;
+        if !(2..=3).contains(&spec.front.indices.len()) {
+            return Err(wrong("--indices: expected two or three indices"));
+        }
     }
     if let Some(points) = call.points {
         if !FRONT_POINTS.contains(&points) {
@@ -91,19 +102,12 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
     if front.points.is_empty() && front.stopped.is_none() {
         eprintln!("no design keeps the remaining requirements and limits: there is no front");
     }
-    let table = || export::pareto::table(&name, &front, &digest);
-    let (content, ending) = match call.format {
-        TableFormat::Text => (export::pareto::text(&name, &front).into_bytes(), "txt"),
-        TableFormat::Json => {
-            let json = export::pareto::json(&name, &front, &spec, &digest);
-            let text = serde_json::to_string_pretty(&json).map_err(failed)?;
-            ((text + "\n").into_bytes(), "json")
-        }
-        TableFormat::Csv => (table().csv().into_bytes(), "csv"),
-        #[cfg(feature = "parquet")]
-        TableFormat::Parquet => (table().parquet().map_err(failed)?, "parquet"),
-    };
-    output::write(content, call.out.as_deref(), &format!("pareto.{ending}"))?;
+    deliver_table(
+        (call.format, call.out.as_deref(), "pareto"),
+        || export::pareto::text(&name, &front),
+        || export::pareto::json(&name, &front, &spec, &digest),
+        || export::pareto::table(&name, &front, &digest),
+    )?;
     Ok(if front.points.is_empty() {
         Done::Unmet
     } else {
@@ -125,11 +129,74 @@ fn indices(names: &[String]) -> Result<Vec<Index>, Failure> {
         }
         indices.push(index);
     }
-    if (2..=3).contains(&indices.len()) {
-        Ok(indices)
-    } else {
-        Err(wrong("--indices: expected two or three indices"))
+    Ok(indices)
+}
+
+pub fn sensitivity(call: &Sensitivity) -> Result<Done, Failure> {
+    let input::Named { name, spec, .. } = input::read(&call.source.spec)?;
+    if !(0.0..1.0).contains(&call.spread) {
+        return Err(wrong(&format!(
+            "--spread {}: expected a share from 0 to below 1, such as 0.1",
+            call.spread
+        )));
     }
+    let indices = if call.indices.is_empty() {
+        indices_of(&spec)
+    } else {
+        indices(&call.indices)?
+    };
+    let samples = call.samples.map(|n| n as usize);
+    let method = match call.method {
+        Method::Morris => samples.map_or(sensitivity::Method::MORRIS, |trajectories| {
+            sensitivity::Method::Morris { trajectories }
+        }),
+        Method::Sobol => samples.map_or(sensitivity::Method::SOBOL, |rows| {
+            sensitivity::Method::Sobol { rows }
+        }),
+    };
+    let factors = Factors::new(&spec.case, &spec.design, call.spread);
+    if factors.list().is_empty() {
+        return Err(wrong(
+            "nothing varies: open [design] or give a --spread above 0",
+        ));
+    }
+    let progress = Line::new();
+    let watch = Watch {
+        interrupt: Some(interrupt::flag()),
+        progress: &progress,
+    };
+    let settings = Settings {
+        method,
+        seed: spec.design.seed,
+    };
+    let found = sensitivity::Sensitivity::new(&factors, &indices, settings, &watch);
+    progress.finish();
+    deliver_table(
+        (call.format, call.out.as_deref(), "sensitivity"),
+        || export::sensitivity::text(&name, &found),
+        || export::sensitivity::json(&name, &found),
+        || export::sensitivity::table(&found),
+    )?;
+    Ok(Done::Complete)
+}
+
+fn deliver_table(
+    (format, out, command): (TableFormat, Option<&Path>, &str),
+    text: impl FnOnce() -> String,
+    json: impl FnOnce() -> serde_json::Value,
+    table: impl FnOnce() -> Table,
+) -> Result<(), Failure> {
+    let (content, ending) = match format {
+        TableFormat::Text => (text().into_bytes(), "txt"),
+        TableFormat::Json => {
+            let text = serde_json::to_string_pretty(&json()).map_err(failed)?;
+            ((text + "\n").into_bytes(), "json")
+        }
+        TableFormat::Csv => (table().csv().into_bytes(), "csv"),
+        #[cfg(feature = "parquet")]
+        TableFormat::Parquet => (table().parquet().map_err(failed)?, "parquet"),
+    };
+    output::write(content, out, &format!("{command}.{ending}"))
 }
 
 /// What a journal must belong to: all that decides the search but the budget, which may be raised.

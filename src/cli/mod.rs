@@ -44,6 +44,7 @@ pub fn run() -> ExitCode {
     let result = match &arguments.command {
         Command::Optimize(call) => design::optimize(call),
         Command::Pareto(call) => design::pareto(call),
+        Command::Sensitivity(call) => design::sensitivity(call),
         Command::Evaluate(call) => commands::evaluate(call),
         Command::Modes(call) => commands::modes(call),
         Command::Curve(call) => commands::curve(call),

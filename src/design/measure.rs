@@ -55,6 +55,13 @@ pub fn measure(case: &Case, wanted: &[Wanted]) -> Result<Vec<Vec<Piece>>, Failur
     wanted.iter().map(|w| models.measure(*w)).collect()
 }
 
+/// As [`measure`], with a result for each of what is wanted: a case that is unstable at its speed
+/// has no lateral ride, but it has a critical speed.
+pub fn measure_each(case: &Case, wanted: &[Wanted]) -> Vec<Result<Vec<Piece>, Failure>> {
+    let mut models = Models::new(case);
+    wanted.iter().map(|w| models.measure(*w)).collect()
+}
+
 /// The models of a case, built when first asked for.
 struct Models<'a> {
     case: &'a Case,

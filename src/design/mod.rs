@@ -14,6 +14,7 @@ pub mod outcome;
 pub mod pareto;
 pub mod procedure;
 pub mod search;
+pub mod sensitivity;
 pub mod study;
 pub mod tasks;
 

@@ -12,6 +12,7 @@ use crate::{
         form::form,
         margin::Margin,
         outcome::{DesignResult, Profile, StageResult},
+        sensitivity::Sensitivity,
     },
     evaluate::checks::checks,
     optimize::{certificate::Curvature, problem::Failure},
@@ -24,6 +25,7 @@ pub fn design(
     result: &DesignResult,
     spec: &Spec,
     digest: &str,
+    matters: Option<&Sensitivity>,
     warnings: &[String],
 ) -> Value {
     let mut object = Map::new();
@@ -81,6 +83,10 @@ pub fn design(
         })
     });
     insert("design_form", lines.collect());
+    insert(
+        "sensitivity",
+        matters.map_or(Value::Null, |m| super::sensitivity::json(name, m)),
+    );
     insert("warnings", json!(warnings));
     Value::Object(object)
 }

@@ -11,6 +11,7 @@ use crate::{
         explain::Bound,
         form::{Line, form},
         outcome::{DesignResult, Profile, StageResult},
+        sensitivity::Sensitivity,
     },
     evaluate::{
         Evaluation,
@@ -26,7 +27,13 @@ use crate::{
 };
 
 /// Everything that `bogie optimize` prints.
-pub fn design(name: &str, result: &DesignResult, demands: &Demands, warnings: &[String]) -> String {
+pub fn design(
+    name: &str,
+    result: &DesignResult,
+    demands: &Demands,
+    matters: Option<&Sensitivity>,
+    warnings: &[String],
+) -> String {
     let mut sheet = Sheet::new(&title(name, &result.case));
     for warning in warnings {
         sheet.line(&format!("warning: {warning}"));
@@ -41,6 +48,13 @@ pub fn design(name: &str, result: &DesignResult, demands: &Demands, warnings: &[
     performance(&mut sheet, result);
     stability(&mut sheet, &result.evaluation);
     constraint_table(&mut sheet, &checks(&result.case, &result.evaluation));
+    if let Some(matters) = matters {
+        sheet.heading(
+            "What matters: change as an input goes from 10 % below the design to 10 % above",
+        );
+        let rows = super::sensitivity::summary(matters, MATTERS);
+        sheet.table(&[], &[1], &rows);
+    }
     sheet.heading("Design form (Table 4.6.1)");
     let rows: Vec<Vec<String>> = form(result, demands).iter().map(form_row).collect();
     sheet.table(&["step", "", "", "SI", "US"], &[1, 2], &rows);
@@ -55,6 +69,9 @@ pub fn design(name: &str, result: &DesignResult, demands: &Demands, warnings: &[
     ));
     sheet.finish()
 }
+
+/// Inputs named per index.
+const MATTERS: usize = 6;
 
 /// A value in both unit systems, as in "320 km/h (200 mph)".
 pub(super) fn value(quantity: Quantity, si: f64) -> String {

@@ -12,6 +12,7 @@ pub mod modes;
 pub mod number;
 pub mod pareto;
 pub mod psd;
+pub mod sensitivity;
 mod sheet;
 pub mod table;
 

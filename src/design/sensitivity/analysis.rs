@@ -1,0 +1,273 @@
+//! Sensitivity of a case's performance indices.
+
+use std::collections::BTreeMap;
+
+use super::{
+    factors::{Factor, Factors},
+    morris,
+    ranking::{Effects, Ranking},
+    runs::{Outcome, Output, Watch},
+    sobol,
+};
+use crate::{
+    case::Case,
+    design::measure::{Wanted, measure_each},
+    index::{Index, Scale, Sense},
+    optimize::problem::{Failure, Piece},
+    spec::{DesignSpace, Spec},
+};
+
+/// How sensitivity is found, and from how much.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// Shares of variance, see [`sobol`].
+    Sobol {
+        /// Rows of the sample.
+        rows: usize,
+    },
+    /// Elementary effects, see [`morris`].
+    Morris {
+        /// Trajectories.
+        trajectories: usize,
+    },
+}
+
+impl Method {
+    /// Sobol' indices from 256 rows: among 50 factors total indices are then good to about ± 0.1
+    /// where they are large and ± 0.01 where they are small.
+    pub const SOBOL: Self = Self::Sobol { rows: 256 };
+    /// Screening with 20 trajectories: twice what is commonly held to be the least.
+    pub const MORRIS: Self = Self::Morris { trajectories: 20 };
+
+    /// Evaluations that it takes with a number of factors.
+    pub fn evaluations(self, factors: usize) -> usize {
+        self.groups() * self.group(factors)
+    }
+
+    /// Rows or trajectories.
+    pub fn groups(self) -> usize {
+        match self {
+            Self::Sobol { rows } => rows,
+            Self::Morris { trajectories } => trajectories,
+        }
+    }
+
+    /// Evaluations in one of them.
+    fn group(self, factors: usize) -> usize {
+        match self {
+            Self::Sobol { .. } => factors + 2,
+            Self::Morris { .. } => factors + 1,
+        }
+    }
+}
+
+/// How an analysis is run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Settings {
+    /// How sensitivity is found.
+    pub method: Method,
+    /// Seed: the same gives the same bits.
+    pub seed: u64,
+}
+
+/// Sensitivity of several indices to the same factors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensitivity {
+    /// What was asked for.
+    pub settings: Settings,
+    /// What varied.
+    pub factors: Vec<Factor>,
+    /// Relative spread of those factors that are inputs.
+    pub spread: f64,
+    /// By index.
+    pub indices: Vec<IndexSensitivity>,
+    /// Whole rows or trajectories evaluated: fewer than asked for if the run was interrupted.
+    pub groups: usize,
+}
+
+/// Sensitivity of one index. Values and effects are of ln(index), with the index in SI, or of the
+/// index itself where its scale is linear.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IndexSensitivity {
+    /// Which.
+    pub index: Index,
+    /// Mean and standard deviation over the sample; `None` where fewer than two evaluations
+    /// succeeded.
+    pub moments: Option<[f64; 2]>,
+    /// Failed evaluations by kind.
+    pub failures: BTreeMap<Failure, usize>,
+    /// Effects by factor.
+    pub effects: Effects,
+}
+
+impl Sensitivity {
+    /// Sensitivity of indices to factors.
+    pub fn new(factors: &Factors, indices: &[Index], settings: Settings, watch: &Watch) -> Self {
+        let function = |x: &[f64]| outcomes(&factors.case(x), indices);
+        let (n, outputs, seed) = (factors.list().len(), indices.len(), settings.seed);
+        watch.progress.stage("sensitivity");
+        watch.progress.expected(settings.method.evaluations(n));
+        let (indices, groups) = match settings.method {
+            Method::Sobol { rows } => {
+                let settings = sobol::Settings { rows, seed };
+                let found = sobol::decomposition(&function, n, outputs, &settings, watch);
+                let pairs = indices.iter().zip(found.outputs);
+                let indices = pairs.map(|(i, o)| IndexSensitivity::new(*i, o, Effects::Sobol));
+                (indices.collect(), found.rows)
+            }
+            Method::Morris { trajectories } => {
+                let settings = morris::Settings {
+                    trajectories,
+                    levels: morris::LEVELS,
+                    seed,
+                };
+                let found = morris::screening(&function, n, outputs, &settings, watch);
+                let pairs = indices.iter().zip(found.outputs);
+                let indices = pairs.map(|(i, o)| IndexSensitivity::new(*i, o, Effects::Morris));
+                (indices.collect(), found.trajectories)
+            }
+        };
+        Self {
+            settings,
+            factors: factors.list().to_vec(),
+            spread: factors.spread(),
+            indices,
+            groups,
+        }
+    }
+
+    /// Evaluations of which the result is made.
+    pub fn evaluations(&self) -> usize {
+        self.groups * self.settings.method.group(self.factors.len())
+    }
+
+    /// Whether there is less than what was asked for.
+    pub fn interrupted(&self) -> bool {
+        self.groups < self.settings.method.groups()
+    }
+
+    /// Factors that matter to none of the indices.
+    pub fn negligible(&self) -> Vec<usize> {
+        let rankings: Vec<Ranking> = self.indices.iter().map(|i| i.ranking()).collect();
+        (0..self.factors.len())
+            .filter(|factor| rankings.iter().all(|r| r.negligible.contains(factor)))
+            .collect()
+    }
+}
+
+impl IndexSensitivity {
+    fn new<E>(index: Index, output: Output<E>, effects: fn(Vec<Option<E>>) -> Effects) -> Self {
+        Self {
+            index,
+            moments: output.moments,
+            failures: output.failures,
+            effects: effects(output.effects),
+        }
+    }
+
+    /// Factors by importance.
+    pub fn ranking(&self) -> Ranking {
+        self.effects.ranking()
+    }
+}
+
+/// Indices to look at if nothing else is said: the report's own, and those that the spec asks for.
+pub fn indices_of(spec: &Spec) -> Vec<Index> {
+    const REPORT: [Index; 6] = [
+        Index::CriticalSpeed,
+        Index::DegreeCurve,
+        Index::LateralAcceleration,
+        Index::VerticalAcceleration,
+        Index::SecondaryLateralStroke,
+        Index::SecondaryVerticalStroke,
+    ];
+    let asked = |index: &Index| {
+        spec.demands.get(*index).is_some() || spec.objective.iter().any(|goal| goal.index == *index)
+    };
+    Index::ALL
+        .into_iter()
+        .filter(|index| REPORT.contains(index) || asked(index))
+        .collect()
+}
+
+/// Screens all inputs of a finished design within ± 10 %, with 5 trajectories: enough to tell what
+/// matters from what does not.
+pub fn screen(design: &Case, indices: &[Index], seed: u64, watch: &Watch) -> Sensitivity {
+    let factors = Factors::new(design, &DesignSpace::default(), 0.1);
+    let method = Method::Morris { trajectories: 5 };
+    Sensitivity::new(&factors, indices, Settings { method, seed }, watch)
+}
+
+/// Indices of a case, on the scale on which they are compared.
+fn outcomes(case: &Case, indices: &[Index]) -> Vec<Outcome> {
+    let wanted: Vec<Wanted> = indices.iter().map(|index| Wanted::Index(*index)).collect();
+    let measured = measure_each(case, &wanted);
+    let pairs = measured.into_iter().zip(indices);
+    pairs
+        .map(|(pieces, index)| compared(*index, &pieces?))
+        .collect()
+}
+
+/// The worst piece of an index; its logarithm where the index is compared by ratios.
+fn compared(index: Index, pieces: &[Piece]) -> Outcome {
+    let values = pieces.iter().map(|piece| piece.value);
+    if values.clone().any(f64::is_nan) {
+        return Err(Failure::NotFinite);
+    }
+    let worst = match index.sense() {
+        Sense::AtLeast => values.reduce(f64::min),
+        Sense::AtMost => values.reduce(f64::max),
+    };
+    let value = worst.ok_or(Failure::NoMode)?;
+    match index.scale() {
+        Scale::Linear => Ok(value),
+        Scale::Logarithmic if value > 0.0 => Ok(value.ln()),
+        Scale::Logarithmic => Err(Failure::NotFinite),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_index_is_its_worst_piece() {
+        let pieces = |values: &[f64]| -> Vec<Piece> {
+            values.iter().map(|v| Piece::single(0, *v)).collect()
+        };
+        let e = std::f64::consts::E;
+        for (index, values, outcome) in [
+            (Index::CriticalSpeed, &[1.0, e][..], Ok(0.0)),
+            (Index::WheelLOverV, &[1.0, e], Ok(1.0)),
+            (Index::LeastDampingRatio, &[-0.1, 0.2], Ok(-0.1)),
+            (Index::WheelLOverV, &[0.0], Err(Failure::NotFinite)),
+            (
+                Index::WheelLOverV,
+                &[1.0, f64::NAN],
+                Err(Failure::NotFinite),
+            ),
+            (Index::FrequencySeparation, &[], Err(Failure::NoMode)),
+        ] {
+            assert_eq!(
+                compared(index, &pieces(values)),
+                outcome,
+                "{index:?} {values:?}"
+            );
+        }
+    }
+
+    /// Unstable at its speed: no lateral ride, but all the rest.
+    #[test]
+    fn what_fails_takes_nothing_else_along() {
+        let mut case = Case::prototype();
+        case.service.speed = 200.0;
+        let indices = [
+            Index::LateralAcceleration,
+            Index::CriticalSpeed,
+            Index::VerticalAcceleration,
+        ];
+        let found = outcomes(&case, &indices);
+        assert_eq!(found[0], Err(Failure::Unstable));
+        assert!(found[1].is_ok() && found[2].is_ok());
+    }
+}
