@@ -29,7 +29,9 @@ use bogie::{
 use support::{LBF_FT, LBF_PER_FT, MPH, assert_ratio, reference_cases};
 
 fn solved(study: &Study) -> Solved {
-    search(study, &Start::everywhere(3), &Archive::new(&Silent)).unwrap()
+    search(study, &Start::everywhere(3), &Archive::new(&Silent))
+        .unwrap()
+        .solved
 }
 
 /// Solves a study in two variables and checks it against an `n` × `n` grid.
@@ -42,7 +44,8 @@ fn solve_and_check(what: &str, study: &Study, n: usize) -> Vec<f64> {
     } else {
         study.clone()
     };
-    let best = problem.evaluate(&solved.point.x).unwrap();
+    let x = solved.point.x[..2].to_vec();
+    let best = problem.evaluate(&x).unwrap();
     for i in 0..n {
         for j in 0..n {
             let x = [i, j].map(|k| k as f64 / (n - 1) as f64);
@@ -59,7 +62,7 @@ fn solve_and_check(what: &str, study: &Study, n: usize) -> Vec<f64> {
         let residual = solved.certificate.map(|c| c.kkt_residual);
         assert_eq!(solved.status, Status::Optimal, "{what} {residual:?}");
     }
-    solved.point.x
+    x
 }
 
 /// The case with its secondary suspension open, lateral or vertical.

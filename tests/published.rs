@@ -103,7 +103,9 @@ impl Optimum {
 }
 
 fn solved(study: &Study) -> Solved {
-    search(study, &Start::everywhere(1), &Archive::new(&Silent)).unwrap()
+    search(study, &Start::everywhere(1), &Archive::new(&Silent))
+        .unwrap()
+        .solved
 }
 
 /// The ratios were noted to two decimals; one of the eighteen degree curves (λ = 0.025, 300 mph)

@@ -3,7 +3,7 @@
 
 use super::{
     explain::worst,
-    search::{relaxing, shortfall},
+    search::{relaxing, search, shortfall},
     study::{Role, Study},
 };
 use crate::{
@@ -11,7 +11,8 @@ use crate::{
     optimize::{
         archive::Archive,
         certificate::HOLDS,
-        problem::{FEASIBLE, Problem},
+        local::Status,
+        problem::Problem,
         solve::{Start, solve},
     },
 };
@@ -88,12 +89,13 @@ pub fn conflict(study: &Study, x: &[f64], seed: u64, archive: &Archive) -> Optio
 fn alone(study: &Study, demand: usize, x: &[f64], seed: u64, archive: &Archive) -> Option<f64> {
     let relaxed = relaxing(study, demand);
     let start = Start::everywhere(seed).with(vec![x.to_vec()]);
-    let solved = solve(&relaxed, &start, archive).ok()?;
-    if solved.point.values.as_ref().ok()?.violation() > FEASIBLE {
+    let found = search(&relaxed, &start, archive).ok()?;
+    if found.solved.status == Status::Infeasible || !found.solved.point.feasible() {
         return None;
     }
     let term = &study.terms()[demand];
-    let measured = relaxed.measure(&solved.point.x).ok()?;
+    let x = &found.solved.point.x[..study.parameters().len()];
+    let measured = relaxed.measure(x).ok()?;
     let pieces: Vec<_> = measured
         .into_iter()
         .filter(|p| {

@@ -12,7 +12,7 @@ use super::{
     explain::Explained,
     margin::{margins, value},
     outcome::{Compared, DesignResult, InCondition, Joint, Profile, StageResult},
-    search::search,
+    search::{Searched, search},
     study::{Role, Study},
     tasks::{Task, Tasks},
 };
@@ -227,8 +227,9 @@ impl Procedure<'_> {
             std::slice::from_ref(sequential),
         )?;
         let study = &stage.best.study;
-        let before = study.evaluate(&study.coordinates(sequential));
-        let after = &stage.best.solved.point.values;
+        // In the terms of the task, whether or not the solution is lifted.
+        let plain = &task(&stage.case).study;
+        let merits = [sequential, &stage.case].map(|case| plain.evaluate(&plain.coordinates(case)));
         let mut indices: Vec<Index> = Vec::new();
         for term in study.terms() {
             if matches!(term.role, Role::Objective { .. }) && !indices.contains(&term.index) {
@@ -240,7 +241,7 @@ impl Procedure<'_> {
             Err(_) => f64::NAN,
         };
         Ok(Joint {
-            gain: merit(&before) - merit(after),
+            gain: merit(&merits[0]) - merit(&merits[1]),
             indices: indices
                 .into_iter()
                 .map(|index| Compared {
@@ -296,8 +297,11 @@ impl Procedure<'_> {
                 start.beat = values.objective();
             }
             match search(&study, &start, self.archive) {
-                Ok(solved) => {
-                    profiles.push(profile(&study, &solved));
+                Ok(Searched { study, solved }) => {
+                    // A profile that was given up has no optimum to show.
+                    if trade_off.is_some() || solved.status != Status::Stalled {
+                        profiles.push(profile(&study, &solved));
+                    }
                     effort.add(&solved.effort);
                     let better = best
                         .as_ref()
@@ -322,7 +326,7 @@ impl Procedure<'_> {
             ))));
         };
         let case = best.study.design(&best.solved.point.x);
-        let before = best.study.coordinates(now);
+        let before: Vec<f64> = best.study.coordinates(now);
         let moved = best
             .solved
             .point

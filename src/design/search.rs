@@ -5,11 +5,21 @@ use crate::{
     index::{Index, Scale},
     optimize::{
         archive::Archive,
-        local::Status,
-        problem::Problem,
+        local::{Status, WIDE},
+        problem::{Point, Problem, Values},
         solve::{NoDesign, Solved, Start, solve},
     },
 };
+
+/// A solved study.
+#[derive(Debug, Clone)]
+pub struct Searched {
+    /// The study in whose terms it is solved: where the critical speed is an objective, the lifted
+    /// one.
+    pub study: Study,
+    /// Its solution.
+    pub solved: Solved,
+}
 
 /// Solves a study. Infeasible demands give the design whose largest relative violation is least,
 /// by the indices themselves: a critical speed counts by the speed, not by the damping at it.
@@ -17,40 +27,85 @@ use crate::{
 /// # Errors
 ///
 /// [`NoDesign`] if not one design could be evaluated.
-pub fn search(study: &Study, start: &Start, archive: &Archive) -> Result<Solved, NoDesign> {
-    let solved = solve(study, start, archive)?;
-    if solved.status != Status::Infeasible {
-        return Ok(solved);
+pub fn search(study: &Study, start: &Start, archive: &Archive) -> Result<Searched, NoDesign> {
+    let found = solve_lifted(study, start, archive)?;
+    if found.solved.status != Status::Infeasible {
+        return Ok(found);
     }
-    let closest = compromise(study, start, &solved, archive)?;
-    if closest
-        .point
-        .values
-        .as_ref()
-        .is_ok_and(|v| v.objective() <= 0.0)
-    {
+    let mut effort = found.solved.effort.clone();
+    let from = study.parameters().len();
+    let start = start
+        .clone()
+        .with(vec![found.solved.point.x[..from].to_vec()])
+        .thoroughly();
+    let closest = solve_lifted(&shortfall(study), &start, archive)?.solved;
+    effort.add(&closest.effort);
+    let x = closest.point.x[..from].to_vec();
+    let values = study.evaluate(&x);
+    if values.as_ref().is_ok_and(Values::feasible) {
         // The compromise meets them all: the search goes on from there.
-        let near = Start::near(vec![closest.point.x.clone()]);
-        let mut again = solve(study, &near, archive)?;
-        again.effort.add(&solved.effort);
-        again.effort.add(&closest.effort);
+        let mut again = solve_lifted(study, &Start::near(vec![x]), archive)?;
+        again.solved.effort.add(&effort);
         return Ok(again);
     }
-    let x = closest.point.x;
-    let mut effort = solved.effort;
-    effort.add(&closest.effort);
-    Ok(Solved {
-        point: crate::optimize::problem::Point {
-            values: study.evaluate(&x),
-            x,
+    Ok(Searched {
+        study: study.clone(),
+        solved: Solved {
+            status: match closest.status {
+                stopped @ (Status::BudgetSpent | Status::Interrupted) => stopped,
+                _ => Status::Infeasible,
+            },
+            point: Point { x, values },
+            certificate: None,
+            effort,
+            ends: Vec::new(),
         },
-        status: match closest.status {
-            stopped @ (Status::BudgetSpent | Status::Interrupted) => stopped,
-            _ => Status::Infeasible,
-        },
-        certificate: None,
-        effort,
-        designs: solved.designs,
+    })
+}
+
+/// The lifted speed may stay this much below; what is truly worse is not taken.
+const HAIR: f64 = 1e-4;
+
+/// Solves a study; where the critical speed is an objective, by its modes' speeds first and then,
+/// from the designs these led to, lifted.
+fn solve_lifted(study: &Study, start: &Start, archive: &Archive) -> Result<Searched, NoDesign> {
+    let solved = solve(study, start, archive)?;
+    let plain = |solved| Searched {
+        study: study.clone(),
+        solved,
+    };
+    let Some(lifted) = study.lifted() else {
+        return Ok(plain(solved));
+    };
+    if archive.stopped().is_some() {
+        return Ok(plain(solved));
+    }
+    let designs = solved.ends.iter().chain([&solved.point.x]);
+    let designs: Vec<Vec<f64>> = designs.filter_map(|x| study.lift(x).ok()).collect();
+    let start = Start {
+        radius: WIDE / 4.0,
+        ..Start::near(designs)
+    };
+    let Ok(mut better) = solve(&lifted, &start, archive) else {
+        return Ok(plain(solved));
+    };
+    let objective = |s: &Solved| {
+        s.point
+            .values
+            .as_ref()
+            .map_or(f64::INFINITY, Values::objective)
+    };
+    let worse = objective(&better) > objective(&solved) + HAIR;
+    if !better.point.feasible() || (solved.point.feasible() && worse) {
+        return Ok(plain(solved));
+    }
+    let first = solved.effort;
+    better.effort.add(&first);
+    better.effort.starts = first.starts;
+    better.effort.agreed = first.agreed;
+    Ok(Searched {
+        study: lifted,
+        solved: better,
     })
 }
 
@@ -77,17 +132,6 @@ pub fn relaxing(study: &Study, demand: usize) -> Study {
         }),
         constraint @ Role::Constraint { .. } => Some(constraint),
     })
-}
-
-fn compromise(
-    study: &Study,
-    start: &Start,
-    from: &Solved,
-    archive: &Archive,
-) -> Result<Solved, NoDesign> {
-    let shortfall = shortfall(study);
-    let start = start.clone().with(vec![from.point.x.clone()]);
-    solve(&shortfall, &start, archive)
 }
 
 /// Whether a shortfall, as the objective of [`shortfall`] has it, is one that an engineer would

@@ -8,6 +8,7 @@ use crate::{
     optimize::problem::{self, FEASIBLE, Failure, Key, Piece, Problem, Values, Variable},
     parameter::Parameter,
     spec::{Condition, Interval},
+    units::Quantity,
 };
 
 /// How a parameter that does not vary follows from the rest.
@@ -66,10 +67,13 @@ pub struct Study {
     variables: Vec<Variable>,
     rules: Vec<(Parameter, Rule)>,
     terms: Vec<Term>,
+    /// The critical speed as a variable of its own, the last one, see [`Study::lifted`].
+    is_lifted: bool,
 }
 
-/// Pieces of one term.
+/// Pieces of one term, and the number of the piece that is the lifted speed itself.
 const PIECES: usize = 256;
+const SPEED: usize = PIECES - 1;
 /// A difference of damping ratio of 1/3 counts as much as a factor e: near the critical speed of
 /// passenger trucks that is about what doubling the speed costs.
 const DAMPING: f64 = 3.0;
@@ -89,7 +93,51 @@ impl Study {
             variables: Vec::new(),
             rules: Vec::new(),
             terms: Vec::new(),
+            is_lifted: false,
         }
+    }
+
+    /// The same study with the critical speed as an epigraph variable.
+    ///
+    /// ```math
+    /// maximise V_cr(x)   ⟺   maximise v   subject to   ζ(x, V) ≥ 0 for all V ≤ v
+    /// ```
+    ///
+    /// The critical speed jumps where an instability is born within the range; the damping over
+    /// the range does not. `None` if the critical speed is no objective.
+    pub fn lifted(&self) -> Option<Self> {
+        self.terms.iter().find(|t| t.is_speed_objective())?;
+        let mut study = self.clone();
+        study.is_lifted = true;
+        study.variables.push(Variable {
+            name: "critical speed",
+            symbol: "V_cr",
+            quantity: Quantity::Speed,
+            bounds: self.base.model.speed_range,
+            scale: problem::Scale::Logarithmic,
+        });
+        Some(study)
+    }
+
+    /// Scaled coordinates of the lifted study for a design of this one: a critical speed a little
+    /// below what it has.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`] as of any measurement.
+    pub fn lift(&self, x: &[f64]) -> Result<Vec<f64>, Failure> {
+        const BELOW: f64 = 1.0 - 1e-4;
+        let case = self.design(x);
+        let mut least = self.base.model.speed_range[1];
+        for term in self.terms.iter().filter(|t| t.is_speed_objective()) {
+            let case = self.in_condition(&case, term.condition);
+            let pieces = measure(&case, &[Wanted::Index(Index::CriticalSpeed)])?.remove(0);
+            least = pieces.iter().map(|p| p.value).fold(least, f64::min);
+        }
+        let [low, high] = self.base.model.speed_range;
+        let mut lifted = x[..self.parameters.len()].to_vec();
+        lifted.push(((BELOW * least / low).ln() / (high / low).ln()).clamp(0.0, 1.0));
+        Ok(lifted)
     }
 
     /// Lets a parameter vary between bounds, on a logarithmic scale unless a bound is zero or the
@@ -247,6 +295,12 @@ impl Study {
         case
     }
 
+    /// The lifted speed at scaled coordinates `x`, m/s.
+    fn speed(&self, x: &[f64]) -> Option<f64> {
+        let at = self.parameters.len();
+        self.is_lifted.then(|| self.variables[at].value(x[at]))
+    }
+
     /// A case in a condition.
     pub fn in_condition(&self, case: &Case, condition: usize) -> Case {
         match &self.conditions[condition] {
@@ -316,6 +370,10 @@ impl Study {
 }
 
 impl Term {
+    fn is_speed_objective(&self) -> bool {
+        self.index == Index::CriticalSpeed && matches!(self.role, Role::Objective { .. })
+    }
+
     fn scaled(&self, value: f64) -> f64 {
         let worse_than = |origin: f64| match (self.index.scale(), self.index.sense()) {
             (Scale::Linear, _) => DAMPING * (origin - value),
@@ -361,6 +419,7 @@ impl Problem for Study {
 
     fn key(&self, x: &[f64]) -> Key {
         let terms = self.terms.iter();
+        let lifted = if self.is_lifted { "lifted " } else { "" };
         let what: Vec<String> = terms
             .map(|t| match self.condition_name(t.condition) {
                 Some(name) => format!("{}/{name}", t.wanted),
@@ -368,9 +427,11 @@ impl Problem for Study {
             })
             .collect();
         let case = self.design(x);
+        let mut at = Parameter::TEN.map(|p| p.get(&case)).to_vec();
+        at.extend(self.speed(x));
         Key {
-            what: what.join(" "),
-            at: Parameter::TEN.map(|p| p.get(&case)).to_vec(),
+            what: format!("{lifted}{}", what.join(" ")),
+            at,
         }
     }
 
@@ -384,13 +445,27 @@ impl Problem for Study {
             if here.is_empty() {
                 continue;
             }
-            let wanted: Vec<Wanted> = here.iter().map(|(_, t)| t.wanted).collect();
+            let wanted: Vec<Wanted> = here
+                .iter()
+                .map(|(_, t)| match self.speed(x) {
+                    Some(speed) if t.is_speed_objective() => Wanted::DampingTo {
+                        speed,
+                        below: AMPLE,
+                    },
+                    _ => t.wanted,
+                })
+                .collect();
             let case = self.in_condition(&case, condition);
             for ((i, _), pieces) in here.iter().zip(measure(&case, &wanted)?) {
                 measured.extend(pieces.into_iter().map(|p| Piece {
                     index: i * PIECES + p.index,
                     ..p
                 }));
+                if let Some(speed) = self.speed(x)
+                    && self.terms[*i].is_speed_objective()
+                {
+                    measured.push(Piece::single(i * PIECES + SPEED, speed));
+                }
             }
         }
         Ok(measured)
@@ -413,13 +488,17 @@ impl Problem for Study {
             {
                 continue;
             }
-            let scaled = Piece {
-                value: term.scaled(piece.value),
-                ..*piece
+            let damping =
+                self.is_lifted && term.is_speed_objective() && piece.index % PIECES != SPEED;
+            let value = if damping {
+                FEASIBLE - DAMPING * piece.value
+            } else {
+                term.scaled(piece.value)
             };
+            let scaled = Piece { value, ..*piece };
             match term.role {
-                Role::Objective { group, .. } => values.objectives[group].push(scaled),
-                Role::Constraint { .. } => values.constraints.push(scaled),
+                Role::Objective { group, .. } if !damping => values.objectives[group].push(scaled),
+                _ => values.constraints.push(scaled),
             }
         }
         // A group without pieces is no objective.

@@ -6,10 +6,9 @@
 //! instability is not stepped over. Last, the vehicle is checked to be stable just below the
 //! lowest crossing.
 
-use nalgebra::Complex;
-
 use super::{
-    followed_modes::Spectrum,
+    damping_range::{dip, refine},
+    followed_modes::{Spectrum, sweep},
     hopf::{Hopf, hopf},
     mode::{Mode, damping_ratio, frequency},
 };
@@ -17,10 +16,8 @@ use crate::dynamics::{EigenError, LateralModel, lateral::Body};
 
 /// Speeds in the search grid.
 const GRID: usize = 20;
-/// A minimum of damping below this is looked at more closely.
-const SUSPECT_DAMPING: f64 = 0.03;
-/// Evaluations spent on one minimum.
-const MINIMUM_STEPS: usize = 12;
+/// A minimum of damping that may come below this is looked at more closely.
+const MARGIN: f64 = 0.02;
 /// Divisions of an interval in which several modes lose their damping.
 const DIVISIONS: usize = 12;
 /// Halvings of a speed interval: to 1e-12 of it.
@@ -78,9 +75,11 @@ impl Stability {
     /// [`EigenError`] if eigenvalues cannot be had.
     pub fn search(model: &LateralModel, range: [f64; 2]) -> Result<Self, EigenError> {
         let ratio = range[1] / range[0];
-        let sweep: Vec<Spectrum> = (0..GRID)
-            .map(|k| Spectrum::at(model, range[0] * ratio.powf(k as f64 / (GRID - 1) as f64)))
-            .collect::<Result<_, _>>()?;
+        let speeds: Vec<f64> = (0..GRID)
+            .map(|k| range[0] * ratio.powf(k as f64 / (GRID - 1) as f64))
+            .collect();
+        // Above the first onset nothing lower can be found.
+        let sweep = sweep(model, &speeds, 0.0)?;
         let mut stability = Self {
             range,
             onsets: Vec::new(),
@@ -175,7 +174,8 @@ impl Stability {
         });
     }
 
-    /// Looks for an instability that begins and ends between grid points.
+    /// Looks for an instability that begins and ends between grid points: a mode whose damping has
+    /// a minimum there that may reach zero.
     fn look_between(
         &mut self,
         model: &LateralModel,
@@ -183,46 +183,17 @@ impl Stability {
     ) -> Result<(), EigenError> {
         let [a, b, c] = triple else { return Ok(()) };
         let before = a.follow(b);
-        let suspects: Vec<Complex<f64>> = b
-            .follow(c)
-            .into_iter()
-            .filter_map(|(mid, after)| {
-                let (first, _) = before.iter().find(|(_, s)| *s == mid)?;
-                let [za, zb, zc] = [*first, mid, after].map(damping_ratio);
-                (zb > 0.0 && zb <= za && zb <= zc && zb < SUSPECT_DAMPING).then_some(mid)
-            })
-            .collect();
-        for start in suspects {
-            // Golden section on the damping of the mode nearest in frequency.
-            const GOLDEN: f64 = 0.618_033_988_749_894_8;
-            let (mut low, mut high) = (a.speed, c.speed);
-            for step in 0..MINIMUM_STEPS {
-                let left = high - GOLDEN * (high - low);
-                let right = low + GOLDEN * (high - low);
-                let probe = if step % 2 == 0 {
-                    [left, right]
-                } else {
-                    [right, left]
-                };
-                let spectra = [
-                    Spectrum::at(model, probe[0])?,
-                    Spectrum::at(model, probe[1])?,
-                ];
-                if let Some(unstable) = spectra.iter().find(|s| s.unstable() > 0) {
-                    self.cross(model, a, unstable, DIVISIONS)?;
-                    break;
-                }
-                let damping = |s: &Spectrum| s.nearest(start).map_or(1.0, damping_ratio);
-                let (first, second) = (damping(&spectra[0]), damping(&spectra[1]));
-                let left_is_less = if step % 2 == 0 {
-                    first < second
-                } else {
-                    second < first
-                };
-                if left_is_less {
-                    high = right;
-                } else {
-                    low = left;
+        for (middle, after) in b.follow(c) {
+            let Some((first, _)) = before.iter().find(|(_, s)| *s == middle) else {
+                continue;
+            };
+            let known = [(a.speed, *first), (b.speed, middle), (c.speed, after)];
+            let [za, zb, zc] = known.map(|(_, s)| damping_ratio(s));
+            if zb > 0.0 && zb <= za && zb <= zc && dip(known) < MARGIN {
+                let minimum = refine(model, known)?;
+                if minimum.damping_ratio < 0.0 {
+                    let unstable = Spectrum::at(model, minimum.speed)?;
+                    self.cross(model, a, &unstable, DIVISIONS)?;
                 }
             }
         }

@@ -7,7 +7,7 @@
 use nalgebra::Complex;
 
 use super::{
-    followed_modes::Spectrum,
+    followed_modes::{Spectrum, sweep},
     lateral_modes::OVERDAMPED,
     mode::{damping_ratio, frequency},
 };
@@ -50,6 +50,8 @@ pub struct DampingRange {
 const CLOSE: f64 = 1e-3;
 /// Ratio of neighbouring speeds in the first look.
 const RATIO: f64 = 1.3;
+/// Eigenvalues this close, as a share of their size, are a pair.
+const TWIN: f64 = 0.01;
 /// Steps of successive parabolas, and the change of ζ at which they end: a hundredth of what
 /// constraints are kept to.
 const STEPS: usize = 12;
@@ -73,10 +75,7 @@ impl DampingRange {
             speeds.push(low * least.powi(i32::try_from(speeds.len()).unwrap_or(i32::MAX)));
         }
         speeds.push(high);
-        let sweep: Vec<Spectrum> = speeds
-            .into_iter()
-            .map(|v| Spectrum::at(model, v))
-            .collect::<Result<_, _>>()?;
+        let sweep = sweep(model, &speeds, f64::NEG_INFINITY)?;
         let mut found = Self {
             minima: Vec::new(),
             diverges: sweep.iter().any(|s| s.diverges),
@@ -91,9 +90,11 @@ impl DampingRange {
         // A minimum in the first or last interval hides behind the end of the range: a speed close
         // to the end tells.
         if let ([first, second, ..], [.., next, last]) = (&sweep[..], &sweep[..]) {
-            let close = Spectrum::at(model, low * (1.0 + CLOSE))?;
+            let middle = (low * second.speed).sqrt();
+            let close = Spectrum::at(model, middle.min(low * (1.0 + CLOSE)))?;
             found.inside(model, &[first.clone(), close, second.clone()], below)?;
-            let close = Spectrum::at(model, high * (1.0 - CLOSE))?;
+            let middle = (next.speed * high).sqrt();
+            let close = Spectrum::at(model, middle.max(high * (1.0 - CLOSE)))?;
             found.inside(model, &[next.clone(), close, last.clone()], below)?;
         }
         Ok(found)
@@ -149,9 +150,19 @@ impl DampingRange {
     }
 }
 
+/// The least damped of the modes near an expected eigenvalue: the trucks' modes come in pairs that
+/// nearly coincide, and the lower one counts.
+fn least_damped_near(spectrum: &Spectrum, expected: Complex<f64>) -> Option<Complex<f64>> {
+    let nearest = spectrum.nearest(expected)?;
+    let reach = (nearest - expected).norm() + TWIN * nearest.norm();
+    let near = spectrum.oscillatory.iter().copied();
+    near.filter(|s| (s - expected).norm() <= reach)
+        .min_by(|a, b| damping_ratio(*a).total_cmp(&damping_ratio(*b)))
+}
+
 /// How low the damping ratio may fall between three speeds: twice as far below the middle one as
 /// the parabola through them does.
-fn dip(known: [(f64, Complex<f64>); 3]) -> f64 {
+pub(super) fn dip(known: [(f64, Complex<f64>); 3]) -> f64 {
     let [a, b, c] = known.map(|(v, s)| (v.ln(), damping_ratio(s)));
     let (left, right) = (b.0 - a.0, c.0 - b.0);
     let (fall, rise) = ((b.1 - a.1) / left, (c.1 - b.1) / right);
@@ -166,7 +177,7 @@ fn dip(known: [(f64, Complex<f64>); 3]) -> f64 {
 
 /// The minimum between three speeds, the middle one least damped: successive parabolas through
 /// ln V, the mode nearest to where the last ones put it.
-fn refine(
+pub(super) fn refine(
     model: &LateralModel,
     start: [(f64, Complex<f64>); 3],
 ) -> Result<DampingMinimum, EigenError> {
@@ -190,7 +201,7 @@ fn refine(
         let near = if x > b.0 { &known[2] } else { &known[0] };
         let t = (x - known[1].0) / (near.0 - known[1].0);
         let expected = known[1].1 * (1.0 - t) + near.1 * t;
-        let Some(s) = Spectrum::at(model, x.exp())?.nearest(expected) else {
+        let Some(s) = least_damped_near(&Spectrum::at(model, x.exp())?, expected) else {
             break;
         };
         let change = damping_ratio(s) - b.1;

@@ -16,6 +16,35 @@ pub(super) struct Spectrum {
     pub diverges: bool,
 }
 
+/// Damping ratios below this are looked at more closely: between speeds of a coarse sweep they may
+/// fall below zero and rise again, and modes that veer apart may be taken for one another.
+const LOW: f64 = 0.03;
+/// Parts into which an interval of the sweep with so little damping is divided.
+const PARTS: i32 = 4;
+
+/// Spectra at `speeds`, m/s, and between them where a mode is lightly damped: down to the damping
+/// ratio `from`.
+pub(super) fn sweep(
+    model: &LateralModel,
+    speeds: &[f64],
+    from: f64,
+) -> Result<Vec<Spectrum>, EigenError> {
+    let mut sweep: Vec<Spectrum> = Vec::new();
+    for &speed in speeds {
+        let next = Spectrum::at(model, speed)?;
+        let light = |s: &Spectrum| (from..LOW).contains(&s.least_damping());
+        if let Some(last) = sweep.last().filter(|last| light(last) || light(&next)) {
+            let (start, ratio) = (last.speed, speed / last.speed);
+            for part in 1..PARTS {
+                let t = f64::from(part) / f64::from(PARTS);
+                sweep.push(Spectrum::at(model, start * ratio.powf(t))?);
+            }
+        }
+        sweep.push(next);
+    }
+    Ok(sweep)
+}
+
 impl Spectrum {
     /// Computes them at `speed`, m/s.
     pub fn at(model: &LateralModel, speed: f64) -> Result<Self, EigenError> {
@@ -25,6 +54,12 @@ impl Spectrum {
             diverges: values.iter().any(|s| s.im == 0.0 && s.re > 0.0),
             oscillatory: values.into_iter().filter(|s| s.im > 0.0).collect(),
         })
+    }
+
+    /// The least damping ratio.
+    fn least_damping(&self) -> f64 {
+        let ratios = self.oscillatory.iter().map(|s| damping_ratio(*s));
+        ratios.fold(f64::INFINITY, f64::min)
     }
 
     /// Number of growing oscillations.

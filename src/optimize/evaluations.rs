@@ -67,11 +67,6 @@ impl<'a> Evaluations<'a> {
         outcome.map(|_| new)
     }
 
-    /// All designs evaluated.
-    pub fn designs(&self) -> Vec<Vec<f64>> {
-        self.lock().iter().map(|p| p.x.clone()).collect()
-    }
-
     /// Why the latest design without a performance has none.
     pub fn last_failure(&self) -> Option<Failure> {
         let points = self.lock();

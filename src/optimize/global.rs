@@ -24,8 +24,7 @@ const PENALTY: f64 = 20.0;
 /// Price by which starts of the local search are ranked: lower, because what is a few per cent
 /// short of a requirement here may still be best once the requirement is met.
 pub(super) const START_PENALTY: f64 = 4.0;
-/// Starts of the local search, and their distance in at least one direction.
-pub(super) const STARTS: usize = 4;
+/// Distance of the starts of the local search, in at least one direction.
 pub(super) const APART: f64 = 0.12;
 
 struct Merit<'a, 'b>(&'a Evaluations<'b>);
@@ -48,7 +47,11 @@ impl CostFunction for Merit<'_, '_> {
 
 /// Searches the unit box; the same seed gives the same designs on any number of threads. Returns
 /// designs from which to search locally, the most promising first.
-pub(super) fn search(evaluations: &Evaluations, seed: u64) -> Result<Vec<Point>, Stop> {
+pub(super) fn search(
+    evaluations: &Evaluations,
+    seed: u64,
+    starts: usize,
+) -> Result<Vec<Point>, Stop> {
     let n = evaluations.problem.variables().len();
     let covering: Vec<Vec<f64>> = (1..=COVERING_PER_VARIABLE * n)
         .map(|i| halton(i, n))
@@ -66,7 +69,7 @@ pub(super) fn search(evaluations: &Evaluations, seed: u64) -> Result<Vec<Point>,
     {
         return Err(*stop);
     }
-    Ok(evaluations.best_apart(START_PENALTY, APART, STARTS))
+    Ok(evaluations.best_apart(START_PENALTY, APART, starts))
 }
 
 /// Point `i` of Halton's low-discrepancy sequence in `n` dimensions (Halton 1960).

@@ -25,8 +25,8 @@ pub struct Solved {
     pub certificate: Option<Certificate>,
     /// What was spent.
     pub effort: Effort,
-    /// Every design evaluated for this problem, in scaled coordinates.
-    pub designs: Vec<Vec<f64>>,
+    /// Designs to which the local searches came, in scaled coordinates.
+    pub ends: Vec<Vec<f64>>,
 }
 
 /// What a search has spent.
@@ -67,6 +67,8 @@ impl Effort {
 pub struct Start {
     /// Search everywhere with this seed; otherwise only from `designs`.
     pub everywhere: Option<u64>,
+    /// Local searches that follow a global phase.
+    pub starts: usize,
     /// Designs worth a look, in scaled coordinates.
     pub designs: Vec<Vec<f64>>,
     /// Trust radius around these; a global phase sets its own.
@@ -83,6 +85,7 @@ impl Start {
     pub fn everywhere(seed: u64) -> Self {
         Self {
             everywhere: Some(seed),
+            starts: STARTS,
             designs: Vec::new(),
             radius: local::WIDE,
             beat: f64::INFINITY,
@@ -94,10 +97,20 @@ impl Start {
     pub fn near(designs: Vec<Vec<f64>>) -> Self {
         Self {
             everywhere: None,
+            starts: STARTS,
             designs,
             radius: local::NARROW,
             beat: f64::INFINITY,
             gives_up: false,
+        }
+    }
+
+    /// Searches locally from many of the designs that the global phase met.
+    #[must_use]
+    pub fn thoroughly(self) -> Self {
+        Self {
+            starts: MANY_STARTS,
+            ..self
         }
     }
 
@@ -120,6 +133,10 @@ pub enum NoDesign {
     Stopped(#[from] Stop),
 }
 
+/// Local searches that follow a global phase, unless told otherwise, and where an index has many
+/// local optima.
+const STARTS: usize = 4;
+const MANY_STARTS: usize = 10;
 /// What a local search may be hoped to gain; a start further behind the best is left out.
 const PROMISE: f64 = 0.3;
 /// Objectives closer than this are the same: what the tolerance on first-order conditions leaves.
@@ -182,7 +199,7 @@ pub fn solve(problem: &dyn Problem, start: &Start, archive: &Archive) -> Result<
         point: found.point,
         status: found.status,
         certificate: found.certificate,
-        designs: evaluations.designs(),
+        ends: ends.into_iter().map(|end| end.point.x).collect(),
     })
 }
 
@@ -190,7 +207,7 @@ pub fn solve(problem: &dyn Problem, start: &Start, archive: &Archive) -> Result<
 fn forecast(n: usize, start: &Start) -> usize {
     let local = 10 + 12 * n;
     match start.everywhere {
-        Some(_) => global::EVALUATIONS_PER_VARIABLE * n + global::STARTS * local,
+        Some(_) => global::EVALUATIONS_PER_VARIABLE * n + start.starts * local,
         None => start.designs.len() * local,
     }
 }
@@ -225,9 +242,15 @@ impl Search<'_> {
         let given = evaluations.all(&start.designs)?;
         let usable: Vec<Point> = given.into_iter().filter(|p| p.values.is_ok()).collect();
         let (mut starts, radius) = match start.everywhere {
-            Some(seed) => (global::search(evaluations, seed)?, local::WIDE),
+            Some(seed) => (
+                global::search(evaluations, seed, start.starts)?,
+                local::WIDE,
+            ),
             // What changed since has left these designs without a performance.
-            None if usable.is_empty() => (global::search(evaluations, AGAIN)?, local::WIDE),
+            None if usable.is_empty() => (
+                global::search(evaluations, AGAIN, start.starts)?,
+                local::WIDE,
+            ),
             None => (usable, start.radius),
         };
         // The best that holds all constraints is a start too, whatever its merit.

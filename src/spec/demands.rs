@@ -27,6 +27,8 @@ pub struct Front {
     pub indices: Vec<Index>,
     /// Points asked for.
     pub points: usize,
+    /// Where it ends: bounds in place of the requirements and limits on the indices traded off.
+    pub bounds: Demands,
 }
 
 impl Default for Front {
@@ -34,6 +36,7 @@ impl Default for Front {
         Self {
             indices: vec![Index::CriticalSpeed, Index::DegreeCurve],
             points: 20,
+            bounds: Demands::default(),
         }
     }
 }
@@ -134,7 +137,33 @@ pub(super) fn front(document: &Document, mistakes: &mut Mistakes) -> Front {
             ));
         }
     }
+    if let Some(value) = document.get(keys::FRONT_BOUNDS) {
+        front.bounds = front_bounds(value, mistakes);
+    }
     front
+}
+
+/// `{ critical_speed = "75 mph" }`: the worst value of an index on the front.
+fn front_bounds(value: &Value, mistakes: &mut Mistakes) -> Demands {
+    let mut bounds = Demands::default();
+    let DeValue::Table(table) = value.get_ref() else {
+        mistakes.push(Diagnostic::at(
+            value.span(),
+            "`bounds` is a table",
+            "expected such as { critical_speed = \"75 mph\" }",
+        ));
+        return bounds;
+    };
+    for (name, bound) in table {
+        let text = toml::Spanned::new(name.span(), DeValue::String(name.get_ref().clone()));
+        if let Some(index) = mistakes.collect(index(&text)) {
+            let read = number(bound, index.name(), index.quantity(), index.range());
+            if let Some(bound) = mistakes.collect(read) {
+                bounds.set(index, bound);
+            }
+        }
+    }
+    bounds
 }
 
 fn front_indices(value: &Value) -> Result<Vec<Index>, Diagnostic> {

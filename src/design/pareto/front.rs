@@ -15,6 +15,8 @@ pub struct FrontPoint {
     pub values: Vec<f64>,
     /// The optimum explained, with the prices of the bounds on the other indices.
     pub explained: Explained,
+    /// Which of the wheel profiles it has.
+    pub(super) profile: usize,
     /// The design in scaled coordinates.
     pub(super) x: Vec<f64>,
     /// What was asked of the other indices.

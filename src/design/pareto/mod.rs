@@ -6,6 +6,9 @@
 //! are the designs best in each index alone, and of those the best in the others. Where
 //! neighbouring points are far apart, a point is put between them. Three indices are swept in
 //! slices of the first.
+//!
+//! Requirements and limits on the indices traded off are left out: the front shows them, and ends
+//! where `[pareto.bounds]` says.
 
 mod front;
 
@@ -13,7 +16,13 @@ use std::collections::BTreeMap;
 
 pub use front::FrontPoint;
 
-use super::{explain::Explained, margin::value, search::search, study::Study, tasks::Tasks};
+use super::{
+    explain::Explained,
+    margin::value,
+    search::{Searched, search},
+    study::Study,
+    tasks::Tasks,
+};
 use crate::{
     case::Case,
     index::{Index, Sense},
@@ -52,6 +61,8 @@ pub struct Front {
 const END: f64 = 1e-4;
 /// Share of the points that is laid evenly before gaps are looked at.
 const EVEN: f64 = 0.6;
+/// One in so many of these is searched for everywhere, the others from their neighbours' designs.
+const EVERYWHERE: usize = 4;
 /// Fewest points that show the shape of one profile's front.
 const SHAPE: usize = 6;
 
@@ -64,28 +75,33 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
     let indices = &spec.front.indices;
     let tasks = Tasks::new(spec);
     let profiles = tasks.profiles(&spec.case);
-    // A profile may lose half of its points to others.
+    // Gaps are filled where a profile turns out to be the best.
     let wanted = match profiles.len() {
         1 => spec.front.points,
-        n => (2 * spec.front.points).div_ceil(n).max(SHAPE),
+        n => spec.front.points.div_ceil(n).max(SHAPE),
     };
+    let tracers: Vec<Tracer> = profiles
+        .iter()
+        .enumerate()
+        .map(|(profile, conicity)| {
+            let mut case = spec.case.clone();
+            case.wheel_rail.conicity = *conicity;
+            Tracer {
+                profile,
+                study: bounded(tasks.bare(&case, indices), spec),
+                indices,
+                seed: spec.design.seed,
+                archive,
+                name: match profiles.len() {
+                    1 => "front".into(),
+                    _ => format!("front of conicity {conicity}"),
+                },
+            }
+        })
+        .collect();
     let mut points = Vec::new();
     let mut failure = None;
-    let mut parameters = Vec::new();
-    for conicity in &profiles {
-        let mut case = spec.case.clone();
-        case.wheel_rail.conicity = *conicity;
-        let tracer = Tracer {
-            study: tasks.bare(&case, indices),
-            indices,
-            seed: spec.design.seed,
-            archive,
-            name: match profiles.len() {
-                1 => "front".into(),
-                _ => format!("front of conicity {conicity}"),
-            },
-        };
-        parameters = tracer.study.parameters().to_vec();
+    for tracer in &tracers {
         match tracer.front(indices, &[], wanted) {
             Ok(found) => points.extend(found),
             Err(reason) => failure = Some(reason),
@@ -99,6 +115,12 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
     {
         return Err(reason);
     }
+    if indices.len() == 2 {
+        refine(&tracers, &mut points, spec.front.points);
+    }
+    let mut parameters = tracers
+        .first()
+        .map_or_else(Vec::new, |t| t.study.parameters().to_vec());
     if profiles.len() > 1 {
         parameters.push(Parameter::Conicity);
     }
@@ -116,7 +138,91 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
     })
 }
 
+/// The study with the ends that the spec gives the front.
+fn bounded(mut study: Study, spec: &Spec) -> Study {
+    for condition in 0..study.conditions() {
+        for demand in spec.front.bounds.iter() {
+            study = study.demand(condition, demand.index, demand.bound);
+        }
+    }
+    study
+}
+
+/// Puts points into the widest gaps until the front has `wanted`, of the profiles on either side.
+fn refine(tracers: &[Tracer], points: &mut Vec<FrontPoint>, wanted: usize) {
+    let Some(Tracer {
+        indices, archive, ..
+    }) = tracers.first()
+    else {
+        return;
+    };
+    let kept = kept(indices);
+    let Some(objective) = indices.iter().copied().find(|i| *i != kept) else {
+        return;
+    };
+    let between = Between {
+        objective,
+        kept,
+        bounds: &[],
+    };
+    let at = |index: Index| indices.iter().position(|i| *i == index).unwrap_or(0);
+    let order = [at(kept), at(objective)];
+    let mut tried: Vec<f64> = Vec::new();
+    let mut front = points.clone();
+    clean(&mut front, indices);
+    while front.len() < wanted && tried.len() < 2 * wanted && archive.stopped().is_none() {
+        let mut along: Vec<(Vec<f64>, usize)> = front
+            .iter()
+            .map(|p| {
+                let badness = p.badness(indices);
+                (order.map(|k| badness[k]).to_vec(), p.profile)
+            })
+            .collect();
+        along.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+        let badness: Vec<Vec<f64>> = along.iter().map(|(b, _)| b.clone()).collect();
+        let extents = extents(&badness);
+        let widest = along
+            .windows(2)
+            .map(|w| {
+                let middle = f64::midpoint(w[0].0[0], w[1].0[0]);
+                (
+                    distance(&w[0].0, &w[1].0, &extents),
+                    middle,
+                    [w[0].1, w[1].1],
+                )
+            })
+            .filter(|(_, middle, _)| !tried.iter().any(|t| (t - middle).abs() < 1e-9))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((_, middle, [left, right])) = widest else {
+            break;
+        };
+        tried.push(middle);
+        let profiles = if left == right {
+            vec![left]
+        } else {
+            vec![left, right]
+        };
+        for profile in profiles {
+            let tracer = &tracers[profile];
+            tracer.announce(&format!("gap {}", tried.len()));
+            if let Some(point) = tracer.level(&between, middle, points, false) {
+                points.push(point.clone());
+                front.push(point);
+            }
+        }
+        clean(&mut front, indices);
+    }
+}
+
+/// The index that is kept rather than pushed: the critical speed changes smoothly as a bound.
+fn kept(indices: &[Index]) -> Index {
+    let speed = indices.iter().find(|i| **i == Index::CriticalSpeed);
+    *speed.unwrap_or(&indices[0])
+}
+
 struct Tracer<'a> {
+    /// Which of the wheel profiles.
+    profile: usize,
     /// Parameters and demands, without those on the indices traded off.
     study: Study,
     indices: &'a [Index],
@@ -135,12 +241,7 @@ impl Tracer<'_> {
         bounds: &[(Index, f64)],
         wanted: usize,
     ) -> Result<Vec<FrontPoint>, NoDesign> {
-        // The critical speed is kept rather than pushed: as a bound it changes smoothly.
-        let kept = indices
-            .iter()
-            .copied()
-            .find(|i| *i == Index::CriticalSpeed)
-            .unwrap_or(indices[0]);
+        let kept = kept(indices);
         let rest: Vec<Index> = indices.iter().copied().filter(|i| *i != kept).collect();
         let mut points = self.ends(indices, bounds)?;
         let badness = points.iter().map(|p| self.badness_of(p, kept));
@@ -157,7 +258,6 @@ impl Tracer<'_> {
                 bounds,
             };
             self.even(&between, [low, high], &mut points, wanted);
-            self.refine(&between, &mut points, wanted);
             self.mend(&mut points);
         } else {
             let slices = wanted.isqrt().max(2);
@@ -188,10 +288,11 @@ impl Tracer<'_> {
         for best in indices {
             self.announce(&format!("the best {}", best.words()));
             let known = points.iter().map(|p| p.x.clone()).collect();
-            let start = Start::everywhere(self.seed).with(known);
+            let start = Start::everywhere(self.seed).with(known).thoroughly();
             let Some(alone) = self.solve(*best, bounds, &start)? else {
                 continue;
             };
+            let mut found = false;
             let reached = of_badness(*best, self.badness_of(&alone, *best) + END);
             for other in indices.iter().filter(|i| *i != best) {
                 let mut bounds: Bounds = bounds.to_vec();
@@ -204,14 +305,18 @@ impl Tracer<'_> {
                     && let Ok(Some(end)) = self.solve(*other, &bounds, &near)
                 {
                     points.push(end);
+                    found = true;
                 }
             }
-            points.push(alone);
+            // Among the designs that reach the best, those best in the others stand for it.
+            if !found {
+                points.push(alone);
+            }
         }
         Ok(points)
     }
 
-    /// Points at even steps of the index kept, each searched for everywhere.
+    /// Points at even steps of the index kept; some of them are searched for everywhere.
     fn even(
         &self,
         between: &Between,
@@ -227,41 +332,8 @@ impl Tracer<'_> {
             }
             self.announce(&format!("point {k} of {steps}"));
             let level = low + k as f64 / (steps + 1) as f64 * (high - low);
-            points.extend(self.level(between, level, points, true));
-        }
-    }
-
-    /// Puts points into the widest gaps until there are `wanted` beside the ends.
-    fn refine(&self, between: &Between, points: &mut Vec<FrontPoint>, wanted: usize) {
-        let mut tried: Vec<f64> = Vec::new();
-        let mut front = points.clone();
-        clean(&mut front, self.indices);
-        while front.len() < wanted && tried.len() < wanted {
-            let pair = [between.kept, between.objective];
-            let of = |p: &FrontPoint| pair.map(|i| self.badness_of(p, i)).to_vec();
-            let mut badness: Vec<Vec<f64>> = front.iter().map(of).collect();
-            badness.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            let extents = extents(&badness);
-            let widest = badness
-                .windows(2)
-                .map(|w| {
-                    (
-                        distance(&w[0], &w[1], &extents),
-                        f64::midpoint(w[0][0], w[1][0]),
-                    )
-                })
-                .filter(|(_, middle)| !tried.iter().any(|t| (t - middle).abs() < 1e-9))
-                .max_by(|a, b| a.0.total_cmp(&b.0));
-            let (Some((_, middle)), None) = (widest, self.archive.stopped()) else {
-                break;
-            };
-            tried.push(middle);
-            self.announce(&format!("gap {}", tried.len()));
-            if let Some(point) = self.level(between, middle, points, false) {
-                points.push(point.clone());
-                front.push(point);
-                clean(&mut front, self.indices);
-            }
+            let everywhere = k % EVERYWHERE == EVERYWHERE / 2 + 1;
+            points.extend(self.level(between, level, points, everywhere));
         }
     }
 
@@ -279,7 +351,7 @@ impl Tracer<'_> {
         let side = |above: bool| {
             let on_side = known.iter().filter(|p| {
                 let badness = self.badness_of(p, between.kept);
-                (badness > level) == above
+                p.profile == self.profile && (badness > level) == above
             });
             on_side.min_by(|a, b| {
                 let far = |p: &FrontPoint| (self.badness_of(p, between.kept) - level).abs();
@@ -339,15 +411,16 @@ impl Tracer<'_> {
                 study = study.demand(condition, *index, *bound);
             }
         }
-        let solved = search(&study, start, self.archive)?;
+        let Searched { study, solved } = search(&study, start, self.archive)?;
         let ended = matches!(solved.status, Status::BudgetSpent | Status::Interrupted);
         if ended || !solved.point.feasible() {
             return Ok(None);
         }
-        let x = solved.point.x.clone();
+        let x = solved.point.x[..study.parameters().len()].to_vec();
         let case = study.design(&x);
         let worst = |index: &Index| worst_over_conditions(&study, &case, *index);
         Ok(Some(FrontPoint {
+            profile: self.profile,
             values: self.indices.iter().map(worst).collect(),
             explained: Explained::new(&study, &solved, format!("best {}", objective.words())),
             case,

@@ -190,11 +190,11 @@ pub fn indices_of(spec: &Spec) -> Vec<Index> {
         .collect()
 }
 
-/// Screens all inputs of a finished design within ± 10 %, with 5 trajectories: enough to tell what
+/// Screens all inputs of a finished design within ± 10 %, with 10 trajectories: enough to tell what
 /// matters from what does not.
 pub fn screen(design: &Case, indices: &[Index], seed: u64, watch: &Watch) -> Sensitivity {
     let factors = Factors::new(design, &DesignSpace::default(), 0.1);
-    let method = Method::Morris { trajectories: 5 };
+    let method = Method::Morris { trajectories: 10 };
     Sensitivity::new(&factors, indices, Settings { method, seed }, watch)
 }
 

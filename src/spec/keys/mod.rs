@@ -25,6 +25,7 @@ pub(super) const MAXIMIZE: &str = "objective.maximize";
 pub(super) const MINIMIZE: &str = "objective.minimize";
 pub(super) const FRONT_INDICES: &str = "pareto.indices";
 pub(super) const FRONT_POINTS: &str = "pareto.points";
+pub(super) const FRONT_BOUNDS: &str = "pareto.bounds";
 
 /// The numeric keys of a case.
 pub fn case() -> impl Iterator<Item = &'static Key<Case>> {
@@ -57,7 +58,7 @@ pub fn paths() -> Vec<&'static str> {
     paths.extend(Parameter::ALL.map(Parameter::path));
     paths.extend([ORDER, SEED, MAXIMIZE, MINIMIZE]);
     paths.extend(Index::ALL.map(Index::path));
-    paths.extend([FRONT_INDICES, FRONT_POINTS, CONDITIONS]);
+    paths.extend([FRONT_INDICES, FRONT_POINTS, FRONT_BOUNDS, CONDITIONS]);
     paths
 }
 

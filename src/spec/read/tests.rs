@@ -224,6 +224,7 @@ fn objectives_fronts_and_conditions() {
         [requirements]\ncritical_speed = \"200 mph\"\nleast_damping_ratio_to_speed = 0.05\n\
         [limits]\nwheel_l_over_v = 0.8\n\
         [pareto]\nindices = [\"critical_speed\", \"lateral_acceleration\"]\npoints = 9\n\
+        bounds = { critical_speed = \"75 mph\" }\n\
         [conditions.worn]\nwheel_rail.conicity = 0.15\nservice.track = \"fra-class-4\"\n\
         [conditions.worn.requirements]\ncritical_speed = \"150 mph\"\n\
         [conditions.loaded.vehicle.carbody]\nmass = \"48 t\"\n";
@@ -243,6 +244,8 @@ fn objectives_fronts_and_conditions() {
         [Index::CriticalSpeed, Index::LateralAcceleration]
     );
     assert_eq!(spec.front.points, 9);
+    let bound = spec.front.bounds.get(Index::CriticalSpeed).unwrap();
+    assert!(close(bound, 75.0 * MILE / 3600.0));
     let worn = spec.conditions.iter().find(|c| c.name == "worn").unwrap();
     let case = worn.apply(&spec.case);
     assert!(close(case.wheel_rail.conicity, 0.15));
