@@ -88,8 +88,11 @@ const PENALTY: f64 = 10.0;
 const HIGHEST_PENALTY: f64 = 1e6;
 /// A violation left by the subproblem below this share of the radius is rounding.
 const NEGLIGIBLE: f64 = 1e-3;
-/// A search this close to a known optimum, in every variable, has arrived at it.
+/// A search this close to a known optimum, in every variable, has arrived at it; so has one that is
+/// in its neighbourhood and as good but for this.
 const ARRIVED: f64 = 5e-3;
+const NEIGHBOUR: f64 = 0.1;
+const LEVEL: f64 = 1e-3;
 /// Up to this many variables the first designs determine all curvatures.
 const FEW: usize = 3;
 
@@ -215,15 +218,22 @@ impl Region<'_> {
                 continue;
             }
             self.advance(&step.d, expected)?;
-            self.arrived = self.known.iter().find(|known| {
-                known.status == Status::Optimal && near(&known.point.x, &self.centre.x, ARRIVED)
-            });
+            self.arrived = self.known.iter().find(|known| self.has_arrived(known));
             if self.arrived.is_some() {
                 return Ok(());
             }
         }
         self.verify()?;
         Ok(())
+    }
+
+    /// Whether the search has come to a known optimum, or so near and so far down its slope that it
+    /// will.
+    fn has_arrived(&self, known: &Found) -> bool {
+        let above = self.centre.merit(self.penalty) - known.point.merit(self.penalty);
+        known.status == Status::Optimal
+            && (near(&known.point.x, &self.centre.x, ARRIVED)
+                || near(&known.point.x, &self.centre.x, NEIGHBOUR) && above.abs() < LEVEL)
     }
 
     fn weights(&self) -> Weights {
