@@ -3,7 +3,7 @@
 
 use super::study::{Role, Study};
 use crate::{
-    index::Index,
+    index::{Index, Sense},
     optimize::{
         certificate::{Certificate, Curvature, HOLDS},
         local::Status,
@@ -144,13 +144,22 @@ impl Explained {
         explained
     }
 
+    /// Relative change of the objective's index per relative change of a variable, whatever limits
+    /// that would break; of several objectives, the gain of their sum.
+    pub fn gain_per_share(&self, chosen: &Chosen) -> f64 {
+        match self.objective {
+            Some((index, _)) if index.sense() == Sense::AtMost => chosen.elasticity,
+            _ => -chosen.elasticity,
+        }
+    }
+
     /// Change of the objective, in SI of its index or as a share, per SI unit of a demand's bound.
     pub fn price(&self, price: &Price) -> f64 {
         match self.objective {
             // f = ± ln v.
             Some((index, value)) => match index.sense() {
-                crate::index::Sense::AtLeast => -value * price.per_unit,
-                crate::index::Sense::AtMost => value * price.per_unit,
+                Sense::AtLeast => -value * price.per_unit,
+                Sense::AtMost => value * price.per_unit,
             },
             None => price.per_unit,
         }
@@ -263,7 +272,7 @@ fn prices(study: &Study, x: &[f64], values: &Values, certificate: &Certificate) 
 pub fn worst(index: Index, pieces: &[Piece]) -> Option<f64> {
     let values = pieces.iter().map(|p| p.value);
     match index.sense() {
-        crate::index::Sense::AtLeast => values.min_by(f64::total_cmp),
-        crate::index::Sense::AtMost => values.max_by(f64::total_cmp),
+        Sense::AtLeast => values.min_by(f64::total_cmp),
+        Sense::AtMost => values.max_by(f64::total_cmp),
     }
 }

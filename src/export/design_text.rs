@@ -140,16 +140,21 @@ pub(super) fn trade_off(sheet: &mut Sheet, stage: &StageResult) {
                 Some(Bound::Upper) => "at its upper bound",
                 None => "",
             };
+            let slope = match (explained.kkt_residual, explained.gain_per_share(chosen)) {
+                (Some(_), gain) => format!("1 % more: {gain:+.2} %"),
+                (None, _) => String::new(),
+            };
             vec![
                 chosen.variable.name.to_string(),
                 chosen.variable.symbol.to_string(),
                 si,
                 us,
+                slope,
                 note.into(),
             ]
         })
         .collect();
-    sheet.table(&[], &[1, 4], &rows);
+    sheet.table(&[], &[1, 5], &rows);
     if !explained.active.is_empty() {
         sheet.line(&format!("held back by: {}", explained.active.join("; ")));
     }

@@ -12,10 +12,10 @@ use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 use super::{archive::Stop, evaluations::Evaluations, problem::Point};
 
 /// Designs of the first, even covering of the box, per variable.
-const COVERING_PER_VARIABLE: usize = 10;
+const COVERING_PER_VARIABLE: usize = 8;
 /// Particles per variable, and sweeps of the swarm.
-const PARTICLES_PER_VARIABLE: usize = 5;
-const SWEEPS: usize = 3;
+const PARTICLES_PER_VARIABLE: usize = 4;
+const SWEEPS: usize = 2;
 /// Evaluations of the global phase per variable.
 pub(super) const EVALUATIONS_PER_VARIABLE: usize =
     COVERING_PER_VARIABLE + PARTICLES_PER_VARIABLE * (1 + SWEEPS);
@@ -69,7 +69,7 @@ pub(super) fn search(
     {
         return Err(*stop);
     }
-    Ok(evaluations.best_apart(START_PENALTY, APART, starts))
+    Ok(evaluations.best_apart(START_PENALTY, APART, starts + n))
 }
 
 /// Point `i` of Halton's low-discrepancy sequence in `n` dimensions (Halton 1960).

@@ -67,7 +67,7 @@ impl Effort {
 pub struct Start {
     /// Search everywhere with this seed; otherwise only from `designs`.
     pub everywhere: Option<u64>,
-    /// Local searches that follow a global phase.
+    /// Local searches that follow a global phase, beside one per variable.
     pub starts: usize,
     /// Designs worth a look, in scaled coordinates.
     pub designs: Vec<Vec<f64>>,
@@ -135,10 +135,11 @@ pub enum NoDesign {
 
 /// Local searches that follow a global phase, unless told otherwise, and where an index has many
 /// local optima.
-const STARTS: usize = 4;
-const MANY_STARTS: usize = 10;
-/// What a local search may be hoped to gain; a start further behind the best is left out.
-const PROMISE: f64 = 0.3;
+const STARTS: usize = 2;
+const MANY_STARTS: usize = 8;
+/// What a local search may be hoped to gain per variable; a start further behind the best is left
+/// out.
+const PROMISE: f64 = 0.2;
 /// Objectives closer than this are the same: what the tolerance on first-order conditions leaves.
 const SAME: f64 = 2e-5;
 /// Starts agree within this in every variable, or in objective within [`SAME`].
@@ -207,7 +208,7 @@ pub fn solve(problem: &dyn Problem, start: &Start, archive: &Archive) -> Result<
 fn forecast(n: usize, start: &Start) -> usize {
     let local = 10 + 12 * n;
     match start.everywhere {
-        Some(_) => global::EVALUATIONS_PER_VARIABLE * n + start.starts * local,
+        Some(_) => global::EVALUATIONS_PER_VARIABLE * n + (start.starts + n) * local,
         None => start.designs.len() * local,
     }
 }
@@ -308,7 +309,8 @@ impl Search<'_> {
         let Ok(values) = &from.values else {
             return false;
         };
-        let reach = values.objective() + global::START_PENALTY * values.violation() - PROMISE;
+        let promise = PROMISE * from.x.len() as f64;
+        let reach = values.objective() + global::START_PENALTY * values.violation() - promise;
         let reached = match &self.best {
             Some(best) if best.status != Status::Infeasible => best
                 .point
