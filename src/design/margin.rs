@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     case::Case,
-    index::{Demands, Index},
+    index::{Demands, Index, Sense},
     optimize::problem::Failure,
     spec::Condition,
 };
@@ -53,6 +53,22 @@ pub fn value(case: &Case, index: Index) -> Result<f64, Failure> {
         .first()
         .and_then(|pieces| worst(index, pieces))
         .ok_or(Failure::NoMode)
+}
+
+/// The worst value of an index over the nominal and further conditions, SI.
+///
+/// # Errors
+///
+/// [`Failure`] where the case has no such performance in one of them.
+pub fn worst_value(case: &Case, conditions: &[Condition], index: Index) -> Result<f64, Failure> {
+    let nominal = value(case, index)?;
+    conditions.iter().try_fold(nominal, |worst, condition| {
+        let value = value(&condition.apply(case), index)?;
+        Ok(match index.sense() {
+            Sense::AtLeast => worst.min(value),
+            Sense::AtMost => worst.max(value),
+        })
+    })
 }
 
 /// All demands on a design.

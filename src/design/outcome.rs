@@ -18,6 +18,8 @@ pub struct StageResult {
     pub explained: Explained,
     /// Profiles tried.
     pub profiles: Vec<Profile>,
+    /// Conicities of profiles that had no hope to do better and were not pursued.
+    pub given_up: Vec<f64>,
 }
 
 /// The best that one of several wheel profiles allows.

@@ -10,7 +10,7 @@ use std::time::Instant;
 use super::{
     conflict::conflict,
     explain::Explained,
-    margin::{margins, value},
+    margin::{margins, worst_value},
     outcome::{Compared, DesignResult, InCondition, Joint, Profile, StageResult},
     search::{Searched, search},
     study::{Role, Study},
@@ -62,6 +62,19 @@ pub enum DesignError {
     /// The chosen design could not be evaluated.
     #[error(transparent)]
     Eigen(#[from] EigenError),
+}
+
+impl DesignError {
+    /// Whether the run was ended rather than failed.
+    fn is_stop(&self) -> bool {
+        matches!(
+            self,
+            Self::NothingEvaluated {
+                reason: NoDesign::Stopped(_),
+                ..
+            }
+        )
+    }
 }
 
 /// Designs the suspension of a spec.
@@ -128,7 +141,9 @@ struct Stage {
 
 impl Procedure<'_> {
     fn run(&self, open: &[TradeOff]) -> Result<DesignResult, DesignError> {
-        let joint_only = self.spec.design.order == Order::Joint || !self.spec.objective.is_empty();
+        let joint_only = self.spec.design.order == Order::Joint
+            || !self.spec.objective.is_empty()
+            || self.tasks.entangled();
         if joint_only {
             let task = |case: &Case| self.tasks.joint(case);
             let stage = self.stage(&self.spec.case, None, &task, None, &[])?;
@@ -138,7 +153,11 @@ impl Procedure<'_> {
         let last = stages.last().expect("something is open");
         let case = last.case.clone();
         let joint = if open.len() > 1 && self.archive.stopped().is_none() {
-            Some(self.joint(&case)?)
+            match self.joint(&case) {
+                Ok(joint) => Some(joint),
+                Err(error) if error.is_stop() => None,
+                Err(error) => return Err(error),
+            }
         } else {
             None
         };
@@ -170,6 +189,11 @@ impl Procedure<'_> {
             now = stage.case.clone();
             stages.push(stage);
         }
+        // What is finished stays if the run ends before the next trade-off has a design.
+        let ended = |error: &DesignError, stages: &[Stage]| {
+            let stopped = DesignError::is_stop(error);
+            stopped && !stages.is_empty()
+        };
         let mut rounds = 0;
         let mut settled = coupled.is_empty();
         while !settled && rounds < ROUNDS && self.archive.stopped().is_none() {
@@ -178,9 +202,11 @@ impl Procedure<'_> {
                 let at = stages
                     .iter()
                     .position(|s| s.result.trade_off == Some(*trade_off));
-                let mut stage = {
-                    let known = at.map(|i| &stages[i].result);
-                    self.trade_off(&now, *trade_off, known, rounds)?
+                let known = at.map(|i| &stages[i].result);
+                let mut stage = match self.trade_off(&now, *trade_off, known, rounds) {
+                    Ok(stage) => stage,
+                    Err(error) if ended(&error, &stages) => break,
+                    Err(error) => return Err(error),
                 };
                 moved = moved.max(stage.moved);
                 now = stage.case.clone();
@@ -246,8 +272,8 @@ impl Procedure<'_> {
                 .into_iter()
                 .map(|index| Compared {
                     index,
-                    sequential: value(sequential, index),
-                    joint: value(&stage.case, index),
+                    sequential: worst_value(sequential, &self.spec.conditions, index),
+                    joint: worst_value(&stage.case, &self.spec.conditions, index),
                 })
                 .collect(),
             stage: stage.result,
@@ -274,6 +300,7 @@ impl Procedure<'_> {
         let mut best: Option<Candidate> = None;
         let mut profiles = Vec::new();
         let mut effort = Effort::default();
+        let mut given_up = Vec::new();
         let mut failure = None;
         for conicity in choices {
             let mut case = now.clone();
@@ -301,6 +328,8 @@ impl Procedure<'_> {
                     // A profile that was given up has no optimum to show.
                     if trade_off.is_some() || solved.status != Status::Stalled {
                         profiles.push(profile(&study, &solved));
+                    } else {
+                        given_up.push(conicity);
                     }
                     effort.add(&solved.effort);
                     let better = best
@@ -350,6 +379,7 @@ impl Procedure<'_> {
                 trade_off,
                 explained,
                 profiles,
+                given_up,
             },
             case,
             moved,
@@ -390,6 +420,15 @@ impl Procedure<'_> {
             conflict(
                 &best.study,
                 &best.solved.point.x,
+                spec.design.seed,
+                self.archive,
+            )
+        } else if short && self.archive.stopped().is_none() {
+            // The margins were made as large as can be and are too small: all demands together.
+            let study = self.tasks.bare(&case, &[]);
+            conflict(
+                &study,
+                &study.coordinates(&case),
                 spec.design.seed,
                 self.archive,
             )

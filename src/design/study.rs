@@ -5,7 +5,10 @@ use super::measure::{Wanted, measure, piece_name};
 use crate::{
     case::Case,
     index::{Index, Scale, Sense},
-    optimize::problem::{self, FEASIBLE, Failure, Key, Piece, Problem, Values, Variable},
+    optimize::{
+        follow,
+        problem::{self, FEASIBLE, Failure, Key, Piece, Problem, Values, Variable},
+    },
     parameter::Parameter,
     spec::{Condition, Interval},
     units::Quantity,
@@ -336,17 +339,22 @@ impl Study {
         if term.index == Index::CriticalSpeed {
             const STEP: f64 = 1e-4;
             let case = self.in_condition(&self.design(x), term.condition);
-            let wanted = Wanted::DampingTo {
-                speed: bound * (1.0 + STEP),
-                below: AMPLE,
+            let at = |speed: f64| {
+                let below = AMPLE;
+                Ok(measure(&case, &[Wanted::DampingTo { speed, below }])?.remove(0))
             };
-            let pieces = measure(&case, &[wanted])?.remove(0);
-            let faster = pieces
+            let (now, faster) = (at(bound)?, at(bound * (1.0 + STEP))?);
+            let same = |p: &&Piece| p.index == piece.index % PIECES;
+            let far = |p: &Piece| (term.scaled(p.value) - piece.value).abs();
+            let own = now
                 .iter()
-                .filter(|p| p.index == piece.index % PIECES)
-                .map(|p| (-DAMPING * p.value, (p.label - piece.label).abs()))
-                .min_by(|a, b| a.1.total_cmp(&b.1));
-            return Ok(faster.map_or(0.0, |(value, _)| (value - piece.value) / (STEP * bound)));
+                .filter(same)
+                .min_by(|a, b| far(a).total_cmp(&far(b)));
+            let change = own.and_then(|own| {
+                let k = now.iter().position(|p| p == own)?;
+                Some(-DAMPING * (follow(&now, k, &faster)? - own.value))
+            });
+            return Ok(change.map_or(0.0, |change| change / (STEP * bound)));
         }
         Ok(match (term.index.scale(), term.index.sense()) {
             (Scale::Linear, _) => DAMPING,

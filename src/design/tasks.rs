@@ -82,6 +82,13 @@ impl<'a> Tasks<'a> {
         })
     }
 
+    /// Whether a tie reaches from one trade-off into another, so that they cannot be taken in turn.
+    pub fn entangled(&self) -> bool {
+        self.space.parameters.iter().any(|(parameter, freedom)| {
+            matches!(freedom, Freedom::Tied { to, .. } if to.trade_off() != parameter.trade_off())
+        })
+    }
+
     /// Conicities of the profiles to choose from, the one at hand first: what it reaches tells
     /// early which others have no hope. None to choose from: the case's own.
     pub fn profiles(&self, case: &Case) -> Vec<f64> {

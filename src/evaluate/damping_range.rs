@@ -37,6 +37,14 @@ pub struct DampingMinimum {
     pub damping_ratio: f64,
 }
 
+impl DampingMinimum {
+    fn is_about(&self, other: &Self) -> bool {
+        self.place == other.place
+            && (self.speed / other.speed - 1.0).abs() < TWIN
+            && (self.frequency / other.frequency - 1.0).abs() < TWIN
+    }
+}
+
 /// Damping over a range of speeds.
 #[derive(Debug, Clone)]
 pub struct DampingRange {
@@ -137,11 +145,14 @@ impl DampingRange {
             let Some((first, _)) = before.iter().find(|(_, s)| *s == middle) else {
                 continue;
             };
-            let start = [(a.speed, *first), (b.speed, middle), (c.speed, after)];
+            // Of modes that nearly coincide the lower counts: which is which depends on the speed.
+            let start = [(a, *first), (b, middle), (c, after)]
+                .map(|(at, s)| (at.speed, least_damped_near(at, s).unwrap_or(s)));
             let [za, zb, zc] = start.map(|(_, s)| damping_ratio(s));
             if zb <= za && zb <= zc && dip(start) < below {
                 let minimum = refine(model, start)?;
-                if minimum.damping_ratio < below {
+                let known = self.minima.iter().any(|m| m.is_about(&minimum));
+                if minimum.damping_ratio < below && !known {
                     self.minima.push(minimum);
                 }
             }

@@ -13,7 +13,7 @@ use crate::{
         outcome::DesignResult,
     },
     index::{Index, Scale, Sense},
-    optimize::certificate::Curvature,
+    optimize::{certificate::Curvature, local::Status},
     units::DisplayUnit,
 };
 
@@ -47,11 +47,11 @@ pub(super) fn certificate(sheet: &mut Sheet, explained: &Explained) {
             .into(),
         );
     }
-    if effort.starts > 1 {
-        parts.push(format!(
-            "{} of {} starts agree",
-            effort.agreed, effort.starts
-        ));
+    match effort.starts {
+        _ if explained.status == Status::Infeasible => {}
+        0 => {}
+        1 => parts.push("1 start".into()),
+        n => parts.push(format!("{} of {n} starts agree", effort.agreed)),
     }
     parts.push(format!("{} evaluations", effort.evaluations));
     sheet.line(&parts.join("; "));
@@ -82,15 +82,12 @@ fn price_line(explained: &Explained, price: &Price) -> String {
         let (step, size) = match (unit.label, price.index.scale()) {
             ("", Scale::Linear) => ("0.01".into(), 0.01),
             ("", Scale::Logarithmic) => ("0.1".into(), 0.1),
-            ("in", _) => ("0.1 in".into(), 0.1 * unit.factor),
+            ("in" | "deg", _) => (format!("0.1 {}", unit.label), 0.1 * unit.factor),
             (label, _) => (format!("1 {label}"), unit.factor),
         };
         let cost = match explained.objective {
             Some((index, _)) => objective(index, change * size, us),
-            None => format!(
-                "{} % of the objective",
-                significant(100.0 * change * size, 2)
-            ),
+            None => format!("{} % of the sum", significant(100.0 * change * size, 2)),
         };
         (step, cost)
     };

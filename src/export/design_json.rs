@@ -143,6 +143,7 @@ pub(super) fn stage(stage: &StageResult) -> Value {
         "variables": chosen.iter().map(variable).collect::<Vec<_>>(),
         "active": active,
         "prices": prices.iter().map(|p| price(&stage.explained, p)).collect::<Vec<_>>(),
+        "profiles_not_pursued": stage.given_up,
         "profiles": stage.profiles.iter().map(profile).collect::<Vec<_>>(),
     })
 }

@@ -174,6 +174,18 @@ pub(super) fn trade_off(sheet: &mut Sheet, stage: &StageResult) {
             &rows,
         );
     }
+    given_up(sheet, stage);
+}
+
+/// Profiles that were not pursued.
+fn given_up(sheet: &mut Sheet, stage: &StageResult) {
+    if !stage.given_up.is_empty() {
+        let list: Vec<String> = stage.given_up.iter().map(|c| significant(*c, 3)).collect();
+        sheet.line(&format!(
+            "no hope to do better, not pursued: conicity {}",
+            list.join(", ")
+        ));
+    }
 }
 
 fn profile_row(profile: &Profile) -> Vec<String> {
@@ -202,10 +214,15 @@ pub(super) fn status(status: Status) -> &'static str {
 /// The performance table of Table 4.7.1: as given, designed, and at half Kalker.
 fn performance(sheet: &mut Sheet, result: &DesignResult) {
     sheet.heading("Performance (Table 4.7.1)");
-    let columns = [&result.before, &result.evaluation, &result.half_kalker];
+    let mut columns = vec![&result.before, &result.evaluation, &result.half_kalker];
+    columns.extend(result.conditions.iter().map(|c| &c.evaluation));
     let line = |name: &str, unit: &str, of: &dyn Fn(&Evaluation) -> Option<f64>, factor: f64| {
         let mut row = vec![name.to_string(), unit.to_string()];
-        row.extend(columns.map(|e| of(e).map_or("–".into(), |v| significant(v / factor, 4))));
+        row.extend(
+            columns
+                .iter()
+                .map(|e| of(e).map_or("–".into(), |v| significant(v / factor, 4))),
+        );
         row
     };
     let mph = Quantity::Speed.us().factor;
@@ -272,11 +289,9 @@ fn performance(sheet: &mut Sheet, result: &DesignResult) {
             factor,
         ));
     }
-    sheet.table(
-        &["", "", "as given", "designed", "at half Kalker"],
-        &[1],
-        &rows,
-    );
+    let mut header = vec!["", "", "as given", "designed", "at half Kalker"];
+    header.extend(result.conditions.iter().map(|c| c.name.as_str()));
+    sheet.table(&header, &[1], &rows);
 }
 
 fn form_row(line: &Line) -> Vec<String> {

@@ -17,3 +17,5 @@ pub mod problem;
 pub mod solve;
 mod subproblem;
 mod surrogate;
+
+pub(crate) use surrogate::follow;

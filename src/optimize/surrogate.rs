@@ -225,7 +225,7 @@ pub(super) fn displacement(centre: &Point, point: &Point) -> DVector<f64> {
 
 /// Value at another design of piece `k` of the centre. Among candidates of the same index the one
 /// with the same rank in order of value is taken (two nearly equal modes), if its label is near.
-fn follow(centre: &[Piece], k: usize, other: &[Piece]) -> Option<f64> {
+pub(crate) fn follow(centre: &[Piece], k: usize, other: &[Piece]) -> Option<f64> {
     let piece = &centre[k];
     let near = |p: &&Piece| p.index == piece.index && (p.label - piece.label).abs() < SAME;
     let rank = |p: &Piece| {

@@ -61,6 +61,8 @@ impl FrontPoint {
 
 /// Differences within this are none: what convergence leaves of a relative value.
 const SAME: f64 = 1e-6;
+/// Points that differ by no more than this in any index show the same twice: 0.05 %.
+const REPEATED: f64 = 5e-4;
 
 /// Whether `a` is as good as `b` in every index, and better in some.
 pub(super) fn dominates(a: &[f64], b: &[f64]) -> bool {
@@ -77,7 +79,7 @@ pub(super) fn clean(points: &mut Vec<FrontPoint>, indices: &[Index]) -> usize {
             !dominated(j)
                 && b.iter()
                     .zip(&badness[i])
-                    .all(|(a, b)| (a - b).abs() <= 10.0 * SAME)
+                    .all(|(a, b)| (a - b).abs() <= REPEATED)
         })
     };
     let lost: Vec<bool> = (0..points.len()).map(dominated).collect();

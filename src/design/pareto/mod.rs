@@ -117,6 +117,7 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
     }
     if indices.len() == 2 {
         refine(&tracers, &mut points, spec.front.points);
+        rival(&tracers, &mut points);
     }
     let mut parameters = tracers
         .first()
@@ -211,6 +212,43 @@ fn refine(tracers: &[Tracer], points: &mut Vec<FrontPoint>, wanted: usize) {
             }
         }
         clean(&mut front, indices);
+    }
+}
+
+/// Tries the other profiles where their own points, joined by lines, lie beyond the front: points
+/// of one profile do not dominate what lies between those of another.
+fn rival(tracers: &[Tracer], points: &mut Vec<FrontPoint>) {
+    let Some(first) = tracers.first() else { return };
+    let kept = kept(first.indices);
+    let Some(objective) = first.indices.iter().copied().find(|i| *i != kept) else {
+        return;
+    };
+    let between = Between {
+        objective,
+        kept,
+        bounds: &[],
+    };
+    let mut front = points.clone();
+    clean(&mut front, first.indices);
+    for point in &front {
+        let level = first.badness_of(point, kept);
+        let own = first.badness_of(point, objective);
+        for tracer in tracers.iter().filter(|t| t.profile != point.profile) {
+            let side = |above: bool| tracer.nearest(points, kept, level, above);
+            let (Some(a), Some(b)) = (side(false), side(true)) else {
+                continue;
+            };
+            let [xa, xb] = [a, b].map(|p| first.badness_of(p, kept));
+            let [fa, fb] = [a, b].map(|p| first.badness_of(p, objective));
+            let expected = fa + (fb - fa) * (level - xa) / (xb - xa).max(f64::MIN_POSITIVE);
+            if expected >= own || first.archive.stopped().is_some() {
+                continue;
+            }
+            tracer.announce("a rival of the front");
+            if let Some(better) = tracer.level(&between, level, points, false) {
+                points.push(better);
+            }
+        }
     }
 }
 
@@ -347,20 +385,9 @@ impl Tracer<'_> {
     ) -> Option<FrontPoint> {
         let mut bounds: Bounds = between.bounds.to_vec();
         bounds.push((between.kept, of_badness(between.kept, level)));
-        // The nearest on either side.
-        let side = |above: bool| {
-            let on_side = known.iter().filter(|p| {
-                let badness = self.badness_of(p, between.kept);
-                p.profile == self.profile && (badness > level) == above
-            });
-            on_side.min_by(|a, b| {
-                let far = |p: &FrontPoint| (self.badness_of(p, between.kept) - level).abs();
-                far(a).total_cmp(&far(b))
-            })
-        };
-        let near: Vec<Vec<f64>> = [side(false), side(true)]
+        let near: Vec<Vec<f64>> = [false, true]
             .into_iter()
-            .flatten()
+            .filter_map(|above| self.nearest(known, between.kept, level, above))
             .map(|p| p.x.clone())
             .collect();
         let start = if everywhere {
@@ -428,6 +455,21 @@ impl Tracer<'_> {
             bounds: bounds.to_vec(),
             objective,
         }))
+    }
+
+    /// The point of this profile whose badness in an index is nearest to a level, above or below it.
+    fn nearest<'p>(
+        &self,
+        points: &'p [FrontPoint],
+        index: Index,
+        level: f64,
+        above: bool,
+    ) -> Option<&'p FrontPoint> {
+        let far = |p: &FrontPoint| (self.badness_of(p, index) - level).abs();
+        let on_side = points
+            .iter()
+            .filter(|p| p.profile == self.profile && (self.badness_of(p, index) > level) == above);
+        on_side.min_by(|a, b| far(a).total_cmp(&far(b)))
     }
 
     fn badness_of(&self, point: &FrontPoint, index: Index) -> f64 {

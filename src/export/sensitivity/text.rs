@@ -95,6 +95,10 @@ fn one_index(sheet: &mut Sheet, sensitivity: &Sensitivity, index: &IndexSensitiv
             "left out: {}; the numbers are of the designs that remain",
             failures.join(", ")
         ));
+        let lost: usize = index.failures.values().sum();
+        if 2 * lost > sensitivity.evaluations() {
+            sheet.line("more than half are left out: narrower bounds would tell more");
+        }
     }
     let ranking = index.ranking();
     let header: &[&str] = match index.effects {

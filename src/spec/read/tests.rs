@@ -119,7 +119,7 @@ fn all_problems_and_the_starter_parse() {
             count += 1;
         }
     }
-    assert_eq!(count, 8);
+    assert_eq!(count, 11);
     parse(STARTER);
 }
 
