@@ -92,7 +92,10 @@ fn verdict(sheet: &mut Sheet, result: &DesignResult) {
     if result.met() {
         sheet.heading("All requirements and limits are met.");
     } else {
-        sheet.heading("Not everything can be met; this is the best compromise:");
+        sheet.heading(match result.stopped {
+            Some(_) => "Not everything is met yet:",
+            None => "Not everything can be met; this is the best compromise:",
+        });
         for unmet in result.unmet() {
             let quantity = unmet.index.quantity();
             let reached = match &unmet.reached {

@@ -61,8 +61,8 @@ impl FrontPoint {
 
 /// Differences within this are none: what convergence leaves of a relative value.
 const SAME: f64 = 1e-6;
-/// Points that differ by no more than this in any index show the same twice: 0.05 %.
-const REPEATED: f64 = 5e-4;
+/// Points that differ by no more than this in any index show the same twice: 0.1 %.
+const REPEATED: f64 = 1e-3;
 
 /// Whether `a` is as good as `b` in every index, and better in some.
 pub(super) fn dominates(a: &[f64], b: &[f64]) -> bool {
