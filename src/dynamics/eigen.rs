@@ -1,6 +1,6 @@
 //! Eigenvalues of real matrices, with a limit on the iterations.
 
-use nalgebra::{Complex, DMatrix, linalg::Schur};
+use nalgebra::{Complex, DMatrix, SMatrix, linalg::Schur};
 
 /// Why no eigenvalues came out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -17,6 +17,22 @@ pub enum EigenError {
 /// goes to the second iteration.
 const SWEEPS_PER_EIGENVALUE: usize = 10;
 
+/// Eigenvalues by the real Schur form, or `None` if it does not converge.
+macro_rules! schur_values {
+    ($matrix:expr) => {{
+        let matrix = $matrix;
+        let sweeps = SWEEPS_PER_EIGENVALUE * matrix.nrows();
+        let schur = Schur::try_new(matrix, f64::EPSILON, sweeps);
+        schur.map(|schur| {
+            schur
+                .complex_eigenvalues()
+                .iter()
+                .copied()
+                .collect::<Vec<_>>()
+        })
+    }};
+}
+
 /// All eigenvalues of a real square matrix, in no particular order.
 ///
 /// Balanced real Schur form by `nalgebra`, which is the faster; where it does not converge,
@@ -30,14 +46,16 @@ pub fn eigenvalues(mut a: DMatrix<f64>) -> Result<Vec<Complex<f64>>, EigenError>
         return Err(EigenError::NotFinite);
     }
     nalgebra::linalg::balancing::balance_parlett_reinsch(&mut a);
-    let sweeps = SWEEPS_PER_EIGENVALUE * a.nrows();
-    if let Some(schur) = Schur::try_new(a.clone(), f64::EPSILON, sweeps) {
-        let values: Vec<_> = schur.complex_eigenvalues().iter().copied().collect();
-        if values.iter().all(|s| s.is_finite()) {
-            return Ok(values);
-        }
+    // The lateral model's own sizes are known when compiling, which makes them faster.
+    let values = match a.nrows() {
+        30 => schur_values!(SMatrix::<f64, 30, 30>::from_column_slice(a.as_slice())),
+        34 => schur_values!(SMatrix::<f64, 34, 34>::from_column_slice(a.as_slice())),
+        _ => schur_values!(a.clone()),
+    };
+    match values {
+        Some(values) if values.iter().all(|s: &Complex<f64>| s.is_finite()) => Ok(values),
+        _ => second_iteration(&a),
     }
-    second_iteration(&a)
 }
 
 fn second_iteration(a: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, EigenError> {
