@@ -1,38 +1,21 @@
 //! Random vehicles: no panic, nothing that is not a number, and the critical speed is the one that
 //! a dense scan finds.
 
+mod support;
+
 use bogie::{
-    case::{Case, Crosslevel, TruckRoll},
+    case::Case,
     comfort::third_octave,
     dynamics::{LateralModel, VerticalModel, eigenvalues},
-    evaluate::{Evaluation, critical_speed::Stability, integration::integrate, response::Response},
-    spec::keys,
+    evaluate::{
+        Evaluation, critical_speed::Stability, damping_range::DampingRange, integration::integrate,
+        response::Response,
+    },
+    parameter::Parameter,
 };
-use rand::{Rng, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-
-/// A vehicle with every parameter of the prototype's changed by up to a factor either way.
-fn random(rng: &mut ChaCha8Rng, factor: f64) -> Case {
-    let prototype = Case::prototype();
-    let mut case = prototype.clone();
-    for key in keys::case() {
-        if let Some(value) = (key.get)(&prototype) {
-            let changed = value * factor.powf(rng.random_range(-1.0..1.0));
-            if key.range.contains(changed) {
-                (key.set)(&mut case, changed);
-            }
-        }
-    }
-    case.wheel_rail.conicity = rng.random_range(0.02..0.25);
-    case.service.speed = rng.random_range(5.0..90.0);
-    if rng.random_bool(0.5) {
-        case.model.truck_roll = TruckRoll::Dynamic;
-    }
-    if rng.random_bool(0.3) {
-        case.model.crosslevel = Crosslevel::Contact;
-    }
-    case
-}
+use support::{LBF_FT, LBF_PER_FT, MPH, random_vehicle as random};
 
 #[test]
 fn every_number_is_a_number() {
@@ -137,5 +120,113 @@ fn refinement_changes_nothing() {
             }
         }
         compared += 1;
+    }
+}
+
+/// The prototype on wheels of conicity 0.10 with the stiffest K_b of the report's charts: at these
+/// K_py an instability is born and dies between about 184 and 210 mph, narrower than the steps of
+/// the search.
+fn briefly_unstable() -> Vec<(String, Case)> {
+    [
+        61e3, 64e3, 67e3, 70e3, 70.2e3, 70.5e3, 71e3, 73e3, 76e3, 80e3,
+    ]
+    .into_iter()
+    .map(|lateral| {
+        let mut case = Case::prototype();
+        case.wheel_rail.conicity = 0.10;
+        Parameter::PrimaryBendingStiffness.set(&mut case, 2e7 * LBF_FT);
+        Parameter::PrimaryLateralStiffness.set(&mut case, lateral * LBF_PER_FT);
+        (format!("K_py {lateral} lbf/ft"), case)
+    })
+    .collect()
+}
+
+/// The least damping ratio of an oscillation at each speed.
+fn least_damping(model: &LateralModel, speeds: &[f64]) -> Vec<f64> {
+    let at = |v: f64| {
+        let values = eigenvalues(model.forced.system.state_matrix(v)).unwrap();
+        let oscillatory = values.iter().filter(|s| s.im > 0.0);
+        oscillatory
+            .map(|s| -s.re / s.norm())
+            .fold(f64::INFINITY, f64::min)
+    };
+    speeds.iter().map(|v| at(*v)).collect()
+}
+
+fn dense(low: f64, high: f64) -> Vec<f64> {
+    let last = 1499;
+    let step = |k: i32| low * (high / low).powf(f64::from(k) / f64::from(last));
+    (0..=last).map(step).collect()
+}
+
+#[test]
+fn an_instability_that_is_born_and_dies_between_two_speeds_is_found() {
+    let mut brief = 0;
+    for (what, case) in briefly_unstable() {
+        let model = LateralModel::new(&case);
+        let [low, high] = case.model.speed_range;
+        let speeds = dense(low, high);
+        let damping = least_damping(&model, &speeds);
+        let first = damping.iter().position(|z| *z < 0.0).expect(&what);
+        let found = Stability::search(&model, [low, high]).unwrap();
+        let critical = found.critical_speed().expect(&what);
+        // Rounding of the scan's own speeds.
+        let slack = 1e-9;
+        assert!(
+            critical <= speeds[first] * (1.0 + slack)
+                && critical >= speeds[first - 1] * (1.0 - slack),
+            "{what}: {} mph found, the scan sees {} mph",
+            critical / MPH,
+            speeds[first] / MPH
+        );
+        // Where it dies again before the next one is born: what this test is for.
+        brief += i32::from(damping[first..].iter().any(|z| *z > 0.0));
+    }
+    assert_eq!(brief, 6, "instabilities that die again");
+}
+
+/// `DampingRange` against 1500 speeds up to a given one. What it finds is a damping ratio that some
+/// mode has, so it can only be lower than the scan where the minimum lies between two of the scan's
+/// speeds: by no more than the damping ratio rises from one of these to the next.
+fn agrees_with_the_scan(what: &str, case: &Case, speed: f64) {
+    let model = LateralModel::new(case);
+    let low = case.model.speed_range[0].min(0.5 * speed);
+    let speeds = dense(low, speed);
+    let damping = least_damping(&model, &speeds);
+    let (k, least) = damping
+        .iter()
+        .copied()
+        .enumerate()
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .expect("1500 speeds");
+    let beside = [k.saturating_sub(1), (k + 1).min(damping.len() - 1)];
+    let rise = beside.map(|i| damping[i] - least);
+    let range = DampingRange::new(&model, [low, speed], f64::INFINITY).unwrap();
+    let found = range.least().expect(what);
+    // 1e-9: the search ends where a step changes ζ by less than 1e-11.
+    let (most, fewest) = (least + 1e-9, least - rise[0].max(rise[1]) - 1e-9);
+    assert!(
+        (fewest..=most).contains(&found.damping_ratio),
+        "{what} up to {} mph: ζ {} at {} mph found, the scan sees {least} at {} mph",
+        speed / MPH,
+        found.damping_ratio,
+        found.speed / MPH,
+        speeds[k] / MPH
+    );
+}
+
+#[test]
+fn the_least_damping_up_to_a_speed_is_what_a_dense_scan_finds() {
+    for (what, case) in briefly_unstable() {
+        for speed in [150.0, 190.0, 200.0, 215.0, 300.0] {
+            agrees_with_the_scan(&what, &case, speed * MPH);
+        }
+    }
+    let mut rng = ChaCha8Rng::seed_from_u64(11);
+    for i in 0..40 {
+        let case = random(&mut rng, if i % 2 == 0 { 1.5 } else { 3.0 });
+        for speed in [60.0, 150.0, 350.0] {
+            agrees_with_the_scan(&format!("vehicle {i}"), &case, speed * MPH);
+        }
     }
 }

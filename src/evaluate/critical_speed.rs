@@ -191,7 +191,7 @@ impl Stability {
             let [za, zb, zc] = known.map(|(_, s)| damping_ratio(s));
             if zb > 0.0 && zb <= za && zb <= zc && dip(known) < MARGIN {
                 let minimum = refine(model, known)?;
-                if minimum.damping_ratio < 0.0 {
+                if let Some(minimum) = minimum.filter(|m| m.damping_ratio < 0.0) {
                     let unstable = Spectrum::at(model, minimum.speed)?;
                     self.cross(model, a, &unstable, DIVISIONS)?;
                 }

@@ -60,10 +60,18 @@ const CLOSE: f64 = 1e-3;
 const RATIO: f64 = 1.3;
 /// Eigenvalues this close, as a share of their size, are a pair.
 const TWIN: f64 = 0.01;
-/// Steps of successive parabolas, and the change of ζ at which they end: a hundredth of what
-/// constraints are kept to.
-const STEPS: usize = 12;
-const SETTLED: f64 = 1e-11;
+/// Steps to a minimum, eight are normal, and how close they come to its ln V: ζ is then
+/// right to its square.
+const STEPS: usize = 40;
+const SETTLED: f64 = 3e-6;
+/// Gain of ζ by a further step at which the parabolas have converged: far below what constraints
+/// are kept to.
+const GAIN: f64 = 1e-11;
+/// A search this close to an end, as a share of the way to it, is on its way out: the modes at the
+/// end were taken for others.
+const EDGE: f64 = 0.02;
+/// Share of an interval that the golden section takes.
+const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
 impl DampingRange {
     /// Looks through `range`, m/s, for minima with damping ratios `below` a value; the least at
@@ -151,10 +159,9 @@ impl DampingRange {
             let [za, zb, zc] = start.map(|(_, s)| damping_ratio(s));
             if zb <= za && zb <= zc && dip(start) < below {
                 let minimum = refine(model, start)?;
-                let known = self.minima.iter().any(|m| m.is_about(&minimum));
-                if minimum.damping_ratio < below && !known {
-                    self.minima.push(minimum);
-                }
+                let known = |m: &DampingMinimum| self.minima.iter().any(|k| k.is_about(m));
+                let new = minimum.filter(|m| m.damping_ratio < below && !known(m));
+                self.minima.extend(new);
             }
         }
         Ok(())
@@ -186,51 +193,81 @@ pub(super) fn dip(known: [(f64, Complex<f64>); 3]) -> f64 {
     }
 }
 
-/// The minimum between three speeds, the middle one least damped: successive parabolas through
-/// ln V, the mode nearest to where the last ones put it.
+/// The minimum between three speeds, the middle one least damped, over ln V: parabolas through the
+/// three best, the golden section where these fail (Brent: *Algorithms for Minimization without
+/// Derivatives*, 1973, chapter 5). The mode is the one nearest to where the two best put it. `None`
+/// if it goes on down to one of the ends.
 pub(super) fn refine(
     model: &LateralModel,
     start: [(f64, Complex<f64>); 3],
-) -> Result<DampingMinimum, EigenError> {
-    let mut known = start.map(|(v, s)| (v.ln(), s));
+) -> Result<Option<DampingMinimum>, EigenError> {
+    let [first, middle, last] = start.map(|(v, s)| (v.ln(), s));
+    let (mut a, mut b) = (first.0, last.0);
+    let zeta = |known: (f64, Complex<f64>)| damping_ratio(known.1);
+    // The best three, and the last two steps.
+    let mut x = middle;
+    let (mut w, mut v) = if zeta(first) <= zeta(last) {
+        (first, last)
+    } else {
+        (last, first)
+    };
+    let (mut step, mut before) = (b - a, b - a);
     for _ in 0..STEPS {
-        let [a, b, c] = known.map(|(x, s)| (x, damping_ratio(s)));
-        let (left, right) = (b.0 - a.0, c.0 - b.0);
-        let (fall, rise) = ((b.1 - a.1) / left, (c.1 - b.1) / right);
-        let curvature = rise - fall;
-        // Where the parabola is flat: rounding decides, and the middle is as good.
-        let mut x = if curvature > 0.0 {
-            b.0 - (left * rise + right * fall) / (2.0 * curvature)
-        } else {
-            b.0
-        };
-        // Towards the longer side if the parabola proposes what is known.
-        if (x - b.0).abs() < 1e-4 * (left + right) {
-            x = b.0 + 0.05 * if right > left { right } else { -left };
+        let centre = f64::midpoint(a, b);
+        if (x.0 - centre).abs() <= 2.0 * SETTLED - 0.5 * (b - a) {
+            break;
         }
-        x = x.clamp(a.0 + 0.01 * left, c.0 - 0.01 * right);
-        let near = if x > b.0 { &known[2] } else { &known[0] };
-        let t = (x - known[1].0) / (near.0 - known[1].0);
-        let expected = known[1].1 * (1.0 - t) + near.1 * t;
-        let Some(s) = least_damped_near(&Spectrum::at(model, x.exp())?, expected) else {
+        // Down to an end of the interval: there it is another one's to find.
+        let heads_out = |end: f64, bound: f64, middle: f64| {
+            end.to_bits() == bound.to_bits() && (x.0 - end).abs() < EDGE * (middle - end).abs()
+        };
+        if heads_out(a, first.0, middle.0) || heads_out(b, last.0, middle.0) {
+            return Ok(None);
+        }
+        // Of the parabola through the three: the way to its minimum is p / q.
+        let r = (x.0 - w.0) * (zeta(x) - zeta(v));
+        let q = (x.0 - v.0) * (zeta(x) - zeta(w));
+        let p = (x.0 - v.0) * q - (x.0 - w.0) * r;
+        let q = 2.0 * (q - r);
+        let (p, q) = if q > 0.0 { (-p, q) } else { (p, -q) };
+        let inside = p > q * (a - x.0) && p < q * (b - x.0);
+        if before.abs() > SETTLED && inside && p.abs() < (0.5 * q * before).abs() {
+            // What the last parabola is off, the next one gains.
+            let gain = 0.5 * p * p / q / ((x.0 - w.0) * (x.0 - v.0) * (w.0 - v.0)).abs();
+            if gain < GAIN && (p / q).abs() < 0.1 * step.abs() {
+                break;
+            }
+            (step, before) = (p / q, step);
+            let u = x.0 + step;
+            if u - a < 2.0 * SETTLED || b - u < 2.0 * SETTLED {
+                step = SETTLED.copysign(centre - x.0);
+            }
+        } else {
+            before = if x.0 >= centre { a - x.0 } else { b - x.0 };
+            step = GOLDEN * before;
+        }
+        let u = x.0 + step.abs().max(SETTLED).copysign(step);
+        let expected = x.1 + (w.1 - x.1) * ((u - x.0) / (w.0 - x.0));
+        let Some(s) = least_damped_near(&Spectrum::at(model, u.exp())?, expected) else {
             break;
         };
-        let change = damping_ratio(s) - b.1;
-        known = match (x > b.0, change < 0.0) {
-            (true, true) => [known[1], (x, s), known[2]],
-            (true, false) => [known[0], known[1], (x, s)],
-            (false, true) => [known[0], (x, s), known[1]],
-            (false, false) => [(x, s), known[1], known[2]],
-        };
-        if change.abs() < SETTLED {
-            break;
+        let u = (u, s);
+        if zeta(u) <= zeta(x) {
+            (a, b) = if u.0 >= x.0 { (x.0, b) } else { (a, x.0) };
+            (v, w, x) = (w, x, u);
+        } else {
+            (a, b) = if u.0 < x.0 { (u.0, b) } else { (a, u.0) };
+            if zeta(u) <= zeta(w) {
+                (v, w) = (w, u);
+            } else if zeta(u) <= zeta(v) {
+                v = u;
+            }
         }
     }
-    let (x, s) = known[1];
-    Ok(DampingMinimum {
+    Ok(Some(DampingMinimum {
         place: Place::Inside,
-        speed: x.exp(),
-        frequency: frequency(s),
-        damping_ratio: damping_ratio(s),
-    })
+        speed: x.0.exp(),
+        frequency: frequency(x.1),
+        damping_ratio: zeta(x),
+    }))
 }

@@ -2,10 +2,12 @@
 #![allow(dead_code)]
 
 use bogie::{
-    case::{Case, TruckRoll},
+    case::{Case, Crosslevel, TruckRoll},
     spec::{Spec, keys},
     units::us::{FOOT, LBF, MILE},
 };
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
 
 /// One mile per hour, m/s.
@@ -39,6 +41,29 @@ fn case_of(entry: &Value) -> Case {
         }
         let key = keys::case().find(|key| key.path == path).expect(path);
         (key.set)(&mut case, value.as_f64().unwrap());
+    }
+    case
+}
+
+/// A vehicle with every parameter of the prototype's changed by up to a factor either way.
+pub fn random_vehicle(rng: &mut ChaCha8Rng, factor: f64) -> Case {
+    let prototype = Case::prototype();
+    let mut case = prototype.clone();
+    for key in keys::case() {
+        if let Some(value) = (key.get)(&prototype) {
+            let changed = value * factor.powf(rng.random_range(-1.0..1.0));
+            if key.range.contains(changed) {
+                (key.set)(&mut case, changed);
+            }
+        }
+    }
+    case.wheel_rail.conicity = rng.random_range(0.02..0.25);
+    case.service.speed = rng.random_range(5.0..90.0);
+    if rng.random_bool(0.5) {
+        case.model.truck_roll = TruckRoll::Dynamic;
+    }
+    if rng.random_bool(0.3) {
+        case.model.crosslevel = Crosslevel::Contact;
     }
     case
 }

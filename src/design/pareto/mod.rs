@@ -70,7 +70,8 @@ const SHAPE: usize = 6;
 ///
 /// # Errors
 ///
-/// [`NoDesign`] if no design could be evaluated at all.
+/// [`NoDesign`] if no design could be evaluated at all. A run that is stopped before its first point
+/// gives a front without points.
 pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
     let indices = &spec.front.indices;
     let tasks = Tasks::new(spec);
@@ -111,6 +112,7 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
         }
     }
     if points.is_empty()
+        && archive.stopped().is_none()
         && let Some(reason) = failure
     {
         return Err(reason);
@@ -327,8 +329,12 @@ impl Tracer<'_> {
             self.announce(&format!("the best {}", best.words()));
             let known = points.iter().map(|p| p.x.clone()).collect();
             let start = Start::everywhere(self.seed).with(known).thoroughly();
-            let Some(alone) = self.solve(*best, bounds, &start)? else {
-                continue;
+            let alone = match self.solve(*best, bounds, &start) {
+                Ok(Some(alone)) => alone,
+                Ok(None) => continue,
+                // What is done stays.
+                Err(NoDesign::Stopped(_)) => break,
+                Err(reason) => return Err(reason),
             };
             let mut found = false;
             let reached = of_badness(*best, self.badness_of(&alone, *best) + END);
