@@ -114,7 +114,7 @@ fn stderr(output: &Output) -> String {
 }
 
 fn count_lines(bytes: &[u8]) -> usize {
-    bytes.iter().filter(|b| **b == b'\n').count()
+    bytes.split(|b| *b == b'\n').count() - 1
 }
 
 fn copy(from: &Path, to: &Path) {

@@ -33,7 +33,8 @@ pub enum Curvature {
 /// First and second order conditions at a design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Certificate {
-    /// Largest violation of the first-order conditions, in scaled variables.
+    /// Largest violation of the first-order conditions, in scaled variables; relative to the
+    /// multipliers where these are large.
     pub kkt_residual: f64,
     /// μ of every objective piece.
     pub objective_multipliers: Vec<Vec<f64>>,
@@ -51,6 +52,9 @@ pub struct Certificate {
 
 /// Multipliers below this hold nothing.
 pub const HOLDS: f64 = 1e-5;
+/// Above this multipliers are large, and residuals count in proportion to them (as in Wächter,
+/// Biegler: *On the implementation of an interior-point filter line-search algorithm*, 2006, (5)).
+const LARGE: f64 = 10.0;
 /// Second derivatives within this share of the largest count as none.
 const FLAT: f64 = 1e-3;
 /// Smallest curvature that counts at all, scaled.
@@ -113,9 +117,11 @@ impl Certificate {
             .zip(&complementarity)
             .map(|(y, c)| y * c)
             .fold(0.0, f64::max);
+        let largest = y[nf..nf + nc].iter().copied().fold(0.0, f64::max);
+        let scale = (largest / LARGE).max(1.0);
         let mut multipliers = y[..nf].iter().copied();
         Some(Self {
-            kkt_residual: stationarity.max(slackness),
+            kkt_residual: stationarity.max(slackness) / scale,
             objective_multipliers: objectives
                 .iter()
                 .map(|&count| multipliers.by_ref().take(count).collect())

@@ -4,6 +4,7 @@ use crate::{
     case::Case,
     design::explain::Explained,
     index::{Index, Scale, Sense},
+    optimize::local::Status,
 };
 
 /// A point of a front.
@@ -89,6 +90,22 @@ pub(super) fn clean(points: &mut Vec<FrontPoint>, indices: &[Index]) -> usize {
     lost.iter().filter(|lost| **lost).count()
 }
 
+/// Removes points that did not converge to an optimum, but for the best in every index, which end
+/// the front and say how they were found.
+pub(super) fn converged(points: &mut Vec<FrontPoint>, indices: &[Index]) {
+    let badness: Vec<Vec<f64>> = points.iter().map(|p| p.badness(indices)).collect();
+    let mut ends = (0..points.len()).map(|i| is_end(&badness, i));
+    points.retain(|p| ends.next().unwrap_or(false) || p.explained.status == Status::Optimal);
+}
+
+/// Whether no point is better in some index.
+fn is_end(badness: &[Vec<f64>], i: usize) -> bool {
+    let indices = 0..badness[i].len();
+    indices
+        .into_iter()
+        .any(|k| badness.iter().all(|b| b[k] >= badness[i][k]))
+}
+
 /// Extent of the front in every index; 1 where it has none.
 pub(super) fn extents(badness: &[Vec<f64>]) -> Vec<f64> {
     let dimensions = badness.first().map_or(0, Vec::len);
@@ -117,8 +134,6 @@ pub(super) fn thin(points: &mut Vec<FrontPoint>, indices: &[Index], wanted: usiz
     while points.len() > wanted.max(indices.len()) {
         let badness: Vec<Vec<f64>> = points.iter().map(|p| p.badness(indices)).collect();
         let extents = extents(&badness);
-        let is_end =
-            |i: usize| (0..indices.len()).any(|k| badness.iter().all(|b| b[k] >= badness[i][k]));
         let nearest = |i: usize| {
             let others = (0..points.len()).filter(|j| *j != i);
             others
@@ -126,7 +141,7 @@ pub(super) fn thin(points: &mut Vec<FrontPoint>, indices: &[Index], wanted: usiz
                 .fold(f64::INFINITY, f64::min)
         };
         let closest = (0..points.len())
-            .filter(|i| !is_end(*i))
+            .filter(|i| !is_end(&badness, *i))
             .map(|i| (nearest(i), i))
             .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let Some((_, i)) = closest else { break };

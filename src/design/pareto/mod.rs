@@ -35,7 +35,7 @@ use crate::{
     parameter::Parameter,
     spec::Spec,
 };
-use front::{badness, clean, distance, dominates, extents, of_badness, thin};
+use front::{badness, clean, converged, distance, dominates, extents, of_badness, thin};
 
 /// A front.
 #[derive(Debug, Clone)]
@@ -58,7 +58,7 @@ pub struct Front {
 
 /// By how much a bound that is an end of the front is loosened to choose among the designs that
 /// reach it, in badness.
-const END: f64 = 1e-4;
+const END: f64 = 1e-3;
 /// Share of the points that is laid evenly before gaps are looked at.
 const EVEN: f64 = 0.6;
 /// One in so many of these is searched for everywhere, the others from their neighbours' designs.
@@ -128,6 +128,7 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
         parameters.push(Parameter::Conicity);
     }
     let dominated = clean(&mut points, indices);
+    converged(&mut points, indices);
     thin(&mut points, indices, spec.front.points);
     points.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
     Ok(Front {
