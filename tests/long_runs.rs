@@ -423,9 +423,10 @@ fn a_front_is_the_same_in_every_form_and_none_of_its_points_is_dominated() {
             .as_f64()
             .unwrap_or_else(|| panic!("{found}"));
         let end = values.iter().copied().fold(f64::INFINITY, f64::min);
-        // The front takes what comes within 1e-4 of the best alone and is best in the other.
+        // The front takes what comes within 1e-3 of the best alone and is best in the other: closer,
+        // the price of the last share grows without bound and nothing can be certified.
         assert!(
-            (end / best - 1.0).abs() < 1.2e-4,
+            (end / best - 1.0).abs() < 1.2e-3,
             "{aim}: {end}, alone {best}"
         );
     }
