@@ -300,7 +300,7 @@ impl Search<'_> {
     fn overtaken(&self) -> Option<Point> {
         let best = self.evaluations.best()?;
         let known = self.best.as_ref()?;
-        let better = best.better_than(&known.point) && best.feasible();
+        let better = best.better_than(&known.point) && best.feasible() && !stands(known, &best);
         (better && (!known.point.feasible() || improvement(&known.point, &best) > SAME))
             .then_some(best)
     }
@@ -338,7 +338,7 @@ fn finish(
         });
     };
     let mut found = match best {
-        Some(found) if !any.better_than(&found.point) => found,
+        Some(found) if !any.better_than(&found.point) || stands(&found, &any) => found,
         Some(found) => {
             let feasible = any.feasible();
             let better = improvement(&found.point, &any) > SAME;
@@ -367,6 +367,19 @@ fn finish(
         found.status = stop.into();
     }
     Ok(found)
+}
+
+/// Whether an optimum is as good as another design, but for what that one owes to the tolerance on
+/// the constraints: where these are nearly flat they are dear.
+fn stands(optimum: &Found, other: &Point) -> bool {
+    let (Some(certificate), Ok(own), Ok(others)) =
+        (&optimum.certificate, &optimum.point.values, &other.values)
+    else {
+        return false;
+    };
+    let price: f64 = certificate.constraint_multipliers.iter().sum();
+    let owed = price * (others.violation() - own.violation()).max(0.0);
+    optimum.status == Status::Optimal && own.objective() - others.objective() <= SAME + owed
 }
 
 fn agrees(a: &Point, b: &Point) -> bool {

@@ -223,21 +223,29 @@ pub(super) fn displacement(centre: &Point, point: &Point) -> DVector<f64> {
     DVector::from_fn(centre.x.len(), |i, _| point.x[i] - centre.x[i])
 }
 
-/// Value at another design of piece `k` of the centre. Among candidates of the same index the one
-/// with the same rank in order of value is taken (two nearly equal modes), if its label is near.
+/// Value at another design of piece `k` of the centre: among those of the same index with a label
+/// near, the one with the same rank. Ranks are those of the labels where these keep further apart
+/// than they move (two modes whose values cross), otherwise those of the values (two modes that
+/// nearly coincide).
 pub(crate) fn follow(centre: &[Piece], k: usize, other: &[Piece]) -> Option<f64> {
     let piece = &centre[k];
     let near = |p: &&Piece| p.index == piece.index && (p.label - piece.label).abs() < SAME;
-    let rank = |p: &Piece| {
-        centre
-            .iter()
-            .filter(near)
-            .filter(|q| q.value.total_cmp(&p.value).is_gt())
-            .count()
-    };
-    let mut candidates: Vec<f64> = other.iter().filter(near).map(|p| p.value).collect();
-    candidates.sort_by(|a, b| b.total_cmp(a));
-    candidates.get(rank(piece)).copied()
+    let [mut own, mut others] =
+        [centre, other].map(|pieces| pieces.iter().filter(near).collect::<Vec<&Piece>>());
+    for pieces in [&mut own, &mut others] {
+        pieces.sort_by(|a, b| a.label.total_cmp(&b.label));
+    }
+    let apart = own.windows(2).map(|w| w[1].label - w[0].label);
+    let apart = apart.fold(f64::INFINITY, f64::min);
+    let pairs = own.iter().zip(&others);
+    let moved = pairs.map(|(a, b)| (b.label - a.label).abs());
+    if own.len() != others.len() || moved.fold(0.0, f64::max) >= 0.5 * apart {
+        for pieces in [&mut own, &mut others] {
+            pieces.sort_by(|a, b| b.value.total_cmp(&a.value));
+        }
+    }
+    let rank = own.iter().position(|p| std::ptr::eq(*p, piece))?;
+    others.get(rank).map(|p| p.value)
 }
 
 /// The weighted least-squares problem for one set of designs, factorised once for all pieces.
