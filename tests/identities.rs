@@ -180,7 +180,7 @@ fn scaling_all_forces_changes_no_motion() {
         assert_ratio(&name, speed(&b), speed(&a), 1e-9);
         let degree = |e: &Evaluation| e.curving.as_ref().unwrap().degree();
         assert_ratio(&name, degree(&b), degree(&a), 1e-9);
-        if let (Some(a), Some(b)) = (&a.lateral, &b.lateral) {
+        if let (Ok(a), Ok(b)) = (&a.lateral, &b.lateral) {
             assert_ratio(
                 &name,
                 b.average_acceleration(),

@@ -76,12 +76,11 @@ fn random_response() {
             }
         };
         let lateral = &expected["lateral"];
-        assert_eq!(lateral.is_null(), evaluation.lateral.is_none(), "{name}");
-        if let Some(ride) = &evaluation.lateral {
-            let acceleration = ride.passengers.each_ref().map(|p| p.acceleration);
+        assert_eq!(lateral.is_null(), evaluation.lateral.is_err(), "{name}");
+        if let Ok(ride) = &evaluation.lateral {
             check(
                 "acceleration",
-                &acceleration,
+                &ride.acceleration,
                 &lateral["acceleration_rms_m_per_s2"],
             );
             check(
@@ -99,13 +98,11 @@ fn random_response() {
                 &ride.excursion,
                 &lateral["wheelset_excursion_rms_m"],
             );
-            assert!(ride.converged, "{name}");
         }
         let (ride, vertical) = (evaluation.vertical.unwrap(), &expected["vertical"]);
-        let acceleration = ride.passengers.each_ref().map(|p| p.acceleration);
         check(
             "vertical acceleration",
-            &acceleration,
+            &ride.acceleration,
             &vertical["acceleration_rms_m_per_s2"],
         );
         check(
@@ -113,6 +110,5 @@ fn random_response() {
             &ride.secondary_stroke,
             &vertical["secondary_stroke_rms_m"],
         );
-        assert!(ride.converged, "{name}");
     }
 }

@@ -93,7 +93,7 @@ fn stability_curving(result: &DesignResult) -> Vec<Line> {
     let vehicle = &result.case.vehicle;
     let primary = &vehicle.suspension.primary;
     let evaluation = &result.evaluation;
-    let ride = evaluation.lateral.as_ref();
+    let ride = evaluation.lateral.as_ref().ok();
     let degree = evaluation
         .curving
         .as_ref()
@@ -158,7 +158,7 @@ fn lateral(result: &DesignResult, demands: &Demands) -> Vec<Line> {
     let mass = result.case.vehicle.carbody.mass;
     let s = &result.case.vehicle.suspension.secondary;
     let (k, c) = (s.lateral_stiffness, s.lateral_damping);
-    let ride = result.evaluation.lateral.as_ref();
+    let ride = result.evaluation.lateral.as_ref().ok();
     let desired = demands.get(Index::LateralAcceleration);
     let stroke = rms(demands.get(Index::SecondaryLateralStroke));
     vec![
@@ -215,7 +215,7 @@ fn vertical(result: &DesignResult, demands: &Demands) -> Vec<Line> {
     let mass = result.case.vehicle.carbody.mass;
     let s = &result.case.vehicle.suspension.secondary;
     let (k, c) = (s.vertical_stiffness, s.vertical_damping);
-    let ride = result.evaluation.vertical.as_ref();
+    let ride = result.evaluation.vertical.as_ref().ok();
     let desired = demands.get(Index::VerticalAcceleration);
     let stroke = rms(demands.get(Index::SecondaryVerticalStroke));
     vec![

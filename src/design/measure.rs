@@ -2,7 +2,7 @@
 
 use crate::{
     case::Case,
-    dynamics::{LateralModel, VerticalModel, eigenvalues},
+    dynamics::{LateralModel, Poles, VerticalModel},
     evaluate::{
         checks::separations,
         critical_speed::Stability,
@@ -10,7 +10,8 @@ use crate::{
         damping_range::{DampingRange, Place},
         lateral_modes::{KinematicBand, LateralModes, LateralShape},
         limits::PEAK,
-        ride::{LateralRide, PassengerRide, VerticalRide},
+        passenger_ride::PassengerRide,
+        ride::{LateralRide, NoRide, VerticalRide},
         vertical_modes::{flexible_separations, vertical_modes},
     },
     index::{Behaviour, Index},
@@ -66,6 +67,7 @@ pub fn measure_each(case: &Case, wanted: &[Wanted]) -> Vec<Result<Vec<Piece>, Fa
 struct Models<'a> {
     case: &'a Case,
     lateral: Option<LateralModel>,
+    poles: Option<Poles>,
     lateral_ride: Option<LateralRide>,
     vertical_ride: Option<VerticalRide>,
     modes: Option<LateralModes>,
@@ -78,6 +80,7 @@ impl<'a> Models<'a> {
         Self {
             case,
             lateral: None,
+            poles: None,
             lateral_ride: None,
             vertical_ride: None,
             modes: None,
@@ -102,6 +105,18 @@ impl<'a> Models<'a> {
     fn lateral(&mut self) -> &LateralModel {
         self.lateral
             .get_or_insert_with(|| LateralModel::new(self.case))
+    }
+
+    /// The lateral model and its poles at the operating speed.
+    fn with_poles(&mut self) -> Result<(&LateralModel, &Poles), Failure> {
+        let case = self.case;
+        let model = &*self.lateral.get_or_insert_with(|| LateralModel::new(case));
+        if self.poles.is_none() {
+            let poles = Poles::at(&model.forced.system, case.service.speed);
+            self.poles = Some(poles.map_err(|_| Failure::Eigenvalues)?);
+        }
+        let poles = self.poles.as_ref().ok_or(Failure::Eigenvalues)?;
+        Ok((model, poles))
     }
 
     fn damping_to(&mut self, speed: f64, below: f64) -> Result<Vec<Piece>, Failure> {
@@ -154,8 +169,8 @@ impl<'a> Models<'a> {
         if self.modes.is_none() {
             let (case, speed) = (self.case, self.case.service.speed);
             let band = KinematicBand::new(&case.vehicle, &case.wheel_rail.contact(), speed);
-            let modes =
-                LateralModes::new(self.lateral(), speed, band).map_err(|_| Failure::Eigenvalues)?;
+            let (model, poles) = self.with_poles()?;
+            let modes = LateralModes::new(model, poles, band).map_err(|_| Failure::Eigenvalues)?;
             self.modes = Some(modes);
         }
         self.modes.as_ref().ok_or(Failure::Eigenvalues)
@@ -254,24 +269,27 @@ impl<'a> Models<'a> {
     }
 
     fn lateral_ride(&mut self, index: Index) -> Result<Vec<Piece>, Failure> {
-        if self.lateral_ride.is_none() {
-            let (case, speed) = (self.case, self.case.service.speed);
-            let model = self.lateral();
-            let values = eigenvalues(model.forced.system.state_matrix(speed))
-                .map_err(|_| Failure::Eigenvalues)?;
-            if values.iter().any(|s| s.re >= 0.0) {
+        let case = self.case;
+        if index == Index::LateralIsoRatio {
+            let (model, poles) = self.with_poles()?;
+            if !poles.stable() {
                 return Err(Failure::Unstable);
             }
-            let ride = LateralRide::new(model, case);
-            if !ride.converged {
-                return Err(Failure::Integration);
-            }
-            self.lateral_ride = Some(ride);
+            let passengers = PassengerRide::lateral(model, case, poles);
+            return passengers.map_or(Err(Failure::Integration), |p| Ok(iso_ratios(&p)));
+        }
+        if self.lateral_ride.is_none() {
+            let (model, poles) = self.with_poles()?;
+            let ride = LateralRide::from_poles(model, case, poles);
+            self.lateral_ride = Some(ride.map_err(|reason| match reason {
+                NoRide::Unstable => Failure::Unstable,
+                NoRide::NotConverged => Failure::Integration,
+                NoRide::Poles(_) => Failure::Eigenvalues,
+            })?);
         }
         let ride = self.lateral_ride.as_ref().ok_or(Failure::Integration)?;
         Ok(match index {
             Index::LateralAcceleration => pieces(&[ride.average_acceleration()]),
-            Index::LateralIsoRatio => iso_ratios(&ride.passengers),
             Index::SecondaryLateralStroke => peaks(&ride.secondary_stroke),
             Index::PrimaryLateralStroke => peaks(&ride.primary_stroke),
             Index::PrimaryLongitudinalStroke => peaks(&ride.longitudinal_stroke),
@@ -281,23 +299,23 @@ impl<'a> Models<'a> {
 
     fn vertical_ride(&mut self, index: Index) -> Result<Vec<Piece>, Failure> {
         let case = self.case;
-        if self.vertical_ride.is_none() {
+        if self.vertical_ride.is_none() || index == Index::VerticalIsoRatio {
             let model = VerticalModel::new(case);
-            let values = eigenvalues(model.forced.system.state_matrix(1.0))
+            let poles = Poles::at(&model.forced.system, case.service.speed)
                 .map_err(|_| Failure::Eigenvalues)?;
-            if values.iter().any(|s| s.re >= 0.0) {
+            if !poles.stable() {
                 return Err(Failure::Diverging);
             }
-            let ride = VerticalRide::new(&model, case);
-            if !ride.converged {
-                return Err(Failure::Integration);
+            if index == Index::VerticalIsoRatio {
+                let passengers = PassengerRide::vertical(&model, case, &poles);
+                return passengers.map_or(Err(Failure::Integration), |p| Ok(iso_ratios(&p)));
             }
-            self.vertical_ride = Some(ride);
+            let ride = VerticalRide::from_poles(&model, case, &poles);
+            self.vertical_ride = Some(ride.map_err(|_| Failure::Integration)?);
         }
         let ride = self.vertical_ride.as_ref().ok_or(Failure::Integration)?;
         Ok(match index {
             Index::VerticalAcceleration => pieces(&[ride.average_acceleration()]),
-            Index::VerticalIsoRatio => iso_ratios(&ride.passengers),
             Index::SecondaryVerticalStroke => peaks(&ride.secondary_stroke),
             Index::PrimaryVerticalStroke => peaks(&ride.primary_stroke),
             _ => {
@@ -320,7 +338,9 @@ impl<'a> Models<'a> {
                     .collect())
             }
             Index::FlexibleModeSeparation => {
-                let modes = vertical_modes(&VerticalModel::new(self.case))
+                let model = VerticalModel::new(self.case);
+                let modes = Poles::at(&model.forced.system, self.case.service.speed)
+                    .and_then(|poles| vertical_modes(&model, &poles))
                     .map_err(|_| Failure::Eigenvalues)?;
                 let separations = flexible_separations(&modes);
                 if separations.is_empty() {

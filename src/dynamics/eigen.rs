@@ -2,6 +2,8 @@
 
 use nalgebra::{Complex, DMatrix, SMatrix, linalg::Schur};
 
+use super::LinearSystem;
+
 /// Why no eigenvalues came out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum EigenError {
@@ -11,6 +13,37 @@ pub enum EigenError {
     /// Neither iteration converged.
     #[error("the eigenvalue iteration did not converge")]
     NotConverged,
+}
+
+/// All eigenvalues of a system at one speed.
+#[derive(Debug, Clone)]
+pub struct Poles {
+    /// V, m/s.
+    pub speed: f64,
+    /// s, rad/s, in no particular order.
+    pub values: Vec<Complex<f64>>,
+}
+
+impl Poles {
+    /// Of a system without input at `speed`, m/s.
+    ///
+    /// # Errors
+    ///
+    /// As [`eigenvalues`].
+    pub fn at(system: &LinearSystem, speed: f64) -> Result<Self, EigenError> {
+        let values = eigenvalues(system.state_matrix(speed))?;
+        Ok(Self { speed, values })
+    }
+
+    /// Those with positive imaginary part.
+    pub fn oscillatory(&self) -> impl Iterator<Item = Complex<f64>> + '_ {
+        self.values.iter().copied().filter(|s| s.im > 0.0)
+    }
+
+    /// Whether nothing grows or stays as it is.
+    pub fn stable(&self) -> bool {
+        self.values.iter().all(|s| s.re < 0.0)
+    }
 }
 
 /// Sweeps allowed per eigenvalue: under 3 is normal; about one vehicle in 3000 never converges and

@@ -2,13 +2,14 @@
 
 pub mod curving;
 mod eigen;
+pub mod elimination;
 mod forced;
 pub mod lateral;
 mod linear_system;
 mod row;
 pub mod vertical;
 
-pub use eigen::{EigenError, eigenvalues};
+pub use eigen::{EigenError, Poles, eigenvalues};
 pub use forced::{Excitation, ForcedModel, Output};
 pub use lateral::LateralModel;
 pub use linear_system::{LinearSystem, Speed};

@@ -76,7 +76,7 @@ fn strokes(list: &mut Vec<Check>, evaluation: &Evaluation) {
     let mut stroke = |name, source, rms: &[f64], limit| {
         list.push(at_most(name, source, Quantity::Stroke, peak(rms), limit));
     };
-    if let Some(ride) = &evaluation.lateral {
+    if let Ok(ride) = &evaluation.lateral {
         stroke(
             "primary lateral stroke, 3σ",
             "3.3.4",
@@ -102,7 +102,7 @@ fn strokes(list: &mut Vec<Check>, evaluation: &Evaluation) {
             limits::EXCURSION,
         );
     }
-    if let Some(ride) = &evaluation.vertical {
+    if let Ok(ride) = &evaluation.vertical {
         stroke(
             "primary vertical stroke, 3σ",
             "3.3.4",

@@ -4,7 +4,7 @@ use super::mode::{Mode, damping_ratio, frequency};
 use crate::{
     closed_form::kinematic,
     dynamics::{
-        EigenError, LateralModel, eigenvalues,
+        EigenError, LateralModel, Poles,
         lateral::{Body, Coordinate},
     },
     vehicle::Vehicle,
@@ -79,25 +79,24 @@ pub struct LateralModes {
 }
 
 impl LateralModes {
-    /// Computes them at `speed`, m/s.
+    /// From the poles at some speed.
     ///
     /// # Errors
     ///
-    /// [`EigenError`] if the eigenvalues cannot be had.
+    /// [`EigenError`] if the mode shapes cannot be had.
     pub fn new(
         model: &LateralModel,
-        speed: f64,
+        poles: &Poles,
         kinematic: KinematicBand,
     ) -> Result<Self, EigenError> {
         let system = &model.forced.system;
-        let values = eigenvalues(system.state_matrix(speed))?;
-        let damping = system.damping_at(speed);
+        let damping = system.damping_at(poles.speed);
         let mut modes = Self {
             oscillatory: Vec::new(),
             real: Vec::new(),
         };
         let mut found = Vec::new();
-        for s in values {
+        for &s in &poles.values {
             if s.im > 0.0 {
                 let mode = Mode::at(system, &damping, s).ok_or(EigenError::NotConverged)?;
                 let carbody_share = mode.energy_share(system, |i| {

@@ -1,17 +1,19 @@
 //! Performance indices of a case.
 
+pub mod branches;
+mod by_spectra;
 pub mod checks;
 pub mod critical_speed;
 pub mod cross_checks;
 pub mod curving;
 pub mod damping_range;
 pub mod equalization;
-mod followed_modes;
-mod hopf;
 pub mod integration;
 pub mod lateral_modes;
 pub mod limits;
 pub mod mode;
+pub mod panels;
+pub mod passenger_ride;
 pub mod response;
 pub mod ride;
 pub mod vertical_modes;
@@ -20,12 +22,13 @@ pub mod warnings;
 use critical_speed::Stability;
 use curving::CurvingLimits;
 use lateral_modes::{KinematicBand, LateralModes};
-use ride::{LateralRide, VerticalRide};
+use passenger_ride::PassengerRide;
+use ride::{LateralRide, NoRide, VerticalRide};
 use vertical_modes::VerticalMode;
 
 use crate::{
     case::Case,
-    dynamics::{EigenError, LateralModel, VerticalModel, curving::CurvingError},
+    dynamics::{EigenError, LateralModel, Poles, VerticalModel, curving::CurvingError},
 };
 
 /// All performance indices of a case.
@@ -39,10 +42,14 @@ pub struct Evaluation {
     pub vertical_modes: Vec<VerticalMode>,
     /// Flange- and slip-limited curves at zero cant deficiency.
     pub curving: Result<CurvingLimits, CurvingError>,
-    /// Lateral ride; `None`: unstable at the operating speed, no stationary response.
-    pub lateral: Option<LateralRide>,
-    /// Vertical ride; `None`: the carbody overturns.
-    pub vertical: Option<VerticalRide>,
+    /// Lateral ride.
+    pub lateral: Result<LateralRide, NoRide>,
+    /// What passengers feel of it at c.g., front, rear; `None` where there is none.
+    pub lateral_passengers: Option<[PassengerRide; 3]>,
+    /// Vertical ride.
+    pub vertical: Result<VerticalRide, NoRide>,
+    /// What passengers feel of it at c.g., front, rear; `None` where there is none.
+    pub vertical_passengers: Option<[PassengerRide; 3]>,
 }
 
 impl Evaluation {
@@ -56,14 +63,25 @@ impl Evaluation {
         let vertical = VerticalModel::new(case);
         let speed = case.service.speed;
         let band = KinematicBand::new(&case.vehicle, &case.wheel_rail.contact(), speed);
-        let modes = LateralModes::new(&lateral, speed, band)?;
-        let vertical_modes = vertical_modes::vertical_modes(&vertical)?;
-        let settles = vertical_modes.iter().all(|m| m.damping_ratio > 0.0);
+        let lateral_poles = Poles::at(&lateral.forced.system, speed)?;
+        let vertical_poles = Poles::at(&vertical.forced.system, speed)?;
+        let modes = LateralModes::new(&lateral, &lateral_poles, band)?;
+        let vertical_modes = vertical_modes::vertical_modes(&vertical, &vertical_poles)?;
+        let ride = LateralRide::from_poles(&lateral, case, &lateral_poles);
+        let bounce = VerticalRide::from_poles(&vertical, case, &vertical_poles);
         Ok(Self {
             stability: Stability::search(&lateral, case.model.speed_range)?,
             curving: CurvingLimits::new(case, 0.0),
-            lateral: modes.stable().then(|| LateralRide::new(&lateral, case)),
-            vertical: settles.then(|| VerticalRide::new(&vertical, case)),
+            lateral_passengers: ride
+                .is_ok()
+                .then(|| PassengerRide::lateral(&lateral, case, &lateral_poles))
+                .flatten(),
+            lateral: ride,
+            vertical_passengers: bounce
+                .is_ok()
+                .then(|| PassengerRide::vertical(&vertical, case, &vertical_poles))
+                .flatten(),
+            vertical: bounce,
             modes,
             vertical_modes,
         })

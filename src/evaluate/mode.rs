@@ -52,6 +52,19 @@ impl Mode {
         })
     }
 
+    /// From vectors of any length. `None` if they are not finite.
+    pub fn normalised(
+        eigenvalue: Complex<f64>,
+        shape: &DVector<Complex<f64>>,
+        left: &DVector<Complex<f64>>,
+    ) -> Option<Self> {
+        Some(Self {
+            eigenvalue,
+            shape: normalised(shape)?,
+            left: normalised(left)?,
+        })
+    }
+
     /// Share of the kinetic energy Σ mᵢ|s vᵢ|² that coordinates chosen by `of` carry.
     pub fn energy_share(&self, system: &LinearSystem, of: impl Fn(usize) -> bool) -> f64 {
         let energy = |i: usize| system.mass[i] * self.shape[i].norm_sqr();

@@ -4,7 +4,7 @@ use super::{
     lateral_modes::OVERDAMPED,
     mode::{Mode, damping_ratio, frequency},
 };
-use crate::dynamics::{EigenError, VerticalModel, eigenvalues, vertical::Coordinate};
+use crate::dynamics::{EigenError, Poles, VerticalModel, vertical::Coordinate};
 
 /// What a mode of the vertical model does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,13 +87,15 @@ pub struct VerticalMode {
 ///
 /// # Errors
 ///
-/// [`EigenError`] if the eigenvalues cannot be had.
-pub fn vertical_modes(model: &VerticalModel) -> Result<Vec<VerticalMode>, EigenError> {
+/// [`EigenError`] if the mode shapes cannot be had.
+pub fn vertical_modes(
+    model: &VerticalModel,
+    poles: &Poles,
+) -> Result<Vec<VerticalMode>, EigenError> {
     let system = &model.forced.system;
-    // Any speed: the vertical model has no speed-dependent terms.
-    let damping = system.damping_at(1.0);
+    let damping = system.damping_at(poles.speed);
     let mut modes = Vec::new();
-    for s in eigenvalues(system.state_matrix(1.0))? {
+    for &s in &poles.values {
         // Relaxation of the air springs' inner points comes out as real roots or, by rounding, as
         // pairs that are as good as real.
         if s.im <= 0.0 || damping_ratio(s) > OVERDAMPED {

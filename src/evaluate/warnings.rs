@@ -1,6 +1,6 @@
 //! Doubts about a result that a designer should see beside it.
 
-use super::{Evaluation, limits};
+use super::{Evaluation, limits, ride::NoRide};
 use crate::{
     case::{Case, TruckRoll},
     closed_form::natural_frequencies::truck_roll,
@@ -37,7 +37,7 @@ pub fn warnings(case: &Case, evaluation: &Evaluation) -> Vec<String> {
             ));
         }
     }
-    if let Some(ride) = &evaluation.lateral {
+    if let Ok(ride) = &evaluation.lateral {
         let clearance = case.wheel_rail.flange_clearance;
         let largest = ride.excursion.iter().copied().fold(0.0, f64::max);
         if 3.0 * largest > clearance {
@@ -47,18 +47,19 @@ pub fn warnings(case: &Case, evaluation: &Evaluation) -> Vec<String> {
                 clearance / largest
             ));
         }
-        if !ride.converged {
-            list.push("the lateral random response did not reach its accuracy".into());
+    }
+    let rides = [
+        ("lateral", evaluation.lateral.as_ref().err()),
+        ("vertical", evaluation.vertical.as_ref().err()),
+    ];
+    for (direction, reason) in rides {
+        if let Some(NoRide::NotConverged) = reason {
+            list.push(format!(
+                "the {direction} random response did not reach its accuracy"
+            ));
         }
     }
-    if evaluation
-        .vertical
-        .as_ref()
-        .is_some_and(|ride| !ride.converged)
-    {
-        list.push("the vertical random response did not reach its accuracy".into());
-    }
-    if let Some(ride) = &evaluation.vertical {
+    if let Ok(ride) = &evaluation.vertical {
         let largest = ride.wheel_load.iter().copied().fold(0.0, f64::max);
         if 3.0 * largest > case.vehicle.wheel_load() {
             list.push(format!(

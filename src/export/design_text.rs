@@ -256,25 +256,25 @@ fn performance(sheet: &mut Sheet, result: &DesignResult) {
         rows.push(line(
             "RMS primary stroke, wheelset 4",
             unit,
-            &|e| e.lateral.as_ref().map(|r| r.primary_stroke[3]),
+            &|e| e.lateral.as_ref().ok().map(|r| r.primary_stroke[3]),
             factor,
         ));
         rows.push(line(
             "RMS wheelset excursion, wheelset 1",
             unit,
-            &|e| e.lateral.as_ref().map(|r| r.excursion[0]),
+            &|e| e.lateral.as_ref().ok().map(|r| r.excursion[0]),
             factor,
         ));
         rows.push(line(
             "RMS secondary lateral stroke",
             unit,
-            &|e| e.lateral.as_ref().map(LateralRide::average_stroke),
+            &|e| e.lateral.as_ref().ok().map(LateralRide::average_stroke),
             factor,
         ));
         rows.push(line(
             "RMS secondary vertical stroke",
             unit,
-            &|e| e.vertical.as_ref().map(VerticalRide::average_stroke),
+            &|e| e.vertical.as_ref().ok().map(VerticalRide::average_stroke),
             factor,
         ));
     }
@@ -282,13 +282,23 @@ fn performance(sheet: &mut Sheet, result: &DesignResult) {
         rows.push(line(
             "RMS lateral acceleration",
             unit,
-            &|e| e.lateral.as_ref().map(LateralRide::average_acceleration),
+            &|e| {
+                e.lateral
+                    .as_ref()
+                    .ok()
+                    .map(LateralRide::average_acceleration)
+            },
             factor,
         ));
         rows.push(line(
             "RMS vertical acceleration",
             unit,
-            &|e| e.vertical.as_ref().map(VerticalRide::average_acceleration),
+            &|e| {
+                e.vertical
+                    .as_ref()
+                    .ok()
+                    .map(VerticalRide::average_acceleration)
+            },
             factor,
         ));
     }

@@ -11,7 +11,7 @@ use crate::{
         critical_speed::{Crossing, Stability},
         curving::LimitedCurve,
         lateral_modes::{LateralMode, LateralModes},
-        ride::{LateralRide, PassengerRide, VerticalRide},
+        passenger_ride::PassengerRide,
         vertical_modes::VerticalMode,
     },
     spec,
@@ -70,8 +70,8 @@ pub(super) fn indices(case: &Case, evaluation: &Evaluation) -> Map<String, Value
         "kinematic_mode": modes.kinematic().map(mode),
         "least_damped_mode": modes.least_damped().map(mode),
         "vertical_modes": evaluation.vertical_modes.iter().map(vertical_mode).collect::<Vec<_>>(),
-        "lateral": evaluation.lateral.as_ref().map(lateral),
-        "vertical": evaluation.vertical.as_ref().map(vertical),
+        "lateral": lateral(evaluation),
+        "vertical": vertical(evaluation),
         "axle_load_n": case.vehicle.axle_load(),
     });
     match object {
@@ -192,8 +192,12 @@ fn passengers(
     object
 }
 
-fn lateral(ride: &LateralRide) -> Value {
-    let mut object = passengers(&ride.passengers, ride.average_acceleration(), ["wd", "wd"]);
+/// Null where there is no stationary response.
+fn lateral(evaluation: &Evaluation) -> Value {
+    let (Ok(ride), Some(points)) = (&evaluation.lateral, &evaluation.lateral_passengers) else {
+        return Value::Null;
+    };
+    let mut object = passengers(points, ride.average_acceleration(), ["wd", "wd"]);
     let mut insert = |key: &str, value: Value| object.insert(key.into(), value);
     insert("secondary_stroke_rms_m", json!(ride.secondary_stroke));
     insert("secondary_stroke_average_m", json!(ride.average_stroke()));
@@ -207,12 +211,15 @@ fn lateral(ride: &LateralRide) -> Value {
         "roll_acceleration_rms_rad_per_s2",
         json!(ride.roll_acceleration),
     );
-    insert("converged", json!(ride.converged));
+    insert("converged", json!(true));
     Value::Object(object)
 }
 
-fn vertical(ride: &VerticalRide) -> Value {
-    let mut object = passengers(&ride.passengers, ride.average_acceleration(), ["wk", "wb"]);
+fn vertical(evaluation: &Evaluation) -> Value {
+    let (Ok(ride), Some(points)) = (&evaluation.vertical, &evaluation.vertical_passengers) else {
+        return Value::Null;
+    };
+    let mut object = passengers(points, ride.average_acceleration(), ["wk", "wb"]);
     let mut insert = |key: &str, value: Value| object.insert(key.into(), value);
     insert("secondary_stroke_rms_m", json!(ride.secondary_stroke));
     insert("secondary_stroke_average_m", json!(ride.average_stroke()));
@@ -222,7 +229,7 @@ fn vertical(ride: &VerticalRide) -> Value {
         "roll_acceleration_rms_rad_per_s2",
         json!(ride.roll_acceleration),
     );
-    insert("converged", json!(ride.converged));
+    insert("converged", json!(true));
     Value::Object(object)
 }
 

@@ -11,7 +11,8 @@ use crate::{
         checks::{Check, checks},
         critical_speed::Hunting,
         curving::LimitedCurve,
-        ride::{PassengerRide, average},
+        passenger_ride::PassengerRide,
+        ride::average,
     },
     track::curvature_of_degree,
     units::Quantity,
@@ -131,11 +132,11 @@ fn curving(sheet: &mut Sheet, evaluation: &Evaluation) {
 fn ride(sheet: &mut Sheet, evaluation: &Evaluation) {
     sheet.heading("Lateral ride, RMS");
     match &evaluation.lateral {
-        None => {
-            sheet.line("none: unstable at the operating speed, so there is no stationary response");
-        }
-        Some(ride) => {
-            passengers(sheet, &ride.passengers, "W_d");
+        Err(reason) => sheet.line(&format!("none: {reason}")),
+        Ok(ride) => {
+            if let Some(points) = &evaluation.lateral_passengers {
+                passengers(sheet, points, "W_d");
+            }
             let rows = [
                 strokes("secondary stroke, trucks 1, 2", &ride.secondary_stroke),
                 strokes("primary stroke, wheelsets 1–4", &ride.primary_stroke),
@@ -150,11 +151,11 @@ fn ride(sheet: &mut Sheet, evaluation: &Evaluation) {
     }
     sheet.heading("Vertical ride, RMS");
     match &evaluation.vertical {
-        None => sheet.line(
-            "none: the vehicle has a motion without damping, so there is no stationary response",
-        ),
-        Some(ride) => {
-            passengers(sheet, &ride.passengers, "W_k");
+        Err(reason) => sheet.line(&format!("none: {reason}")),
+        Ok(ride) => {
+            if let Some(points) = &evaluation.vertical_passengers {
+                passengers(sheet, points, "W_k");
+            }
             let rows = [
                 strokes("secondary stroke, trucks 1, 2", &ride.secondary_stroke),
                 strokes("primary stroke, wheelsets 1–4", &ride.primary_stroke),

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     case::Case,
-    dynamics::{EigenError, LateralModel, VerticalModel},
+    dynamics::{EigenError, LateralModel, Poles, VerticalModel},
     evaluate::{
         lateral_modes::{KinematicBand, LateralModes},
         vertical_modes::{VerticalMode, vertical_modes},
@@ -39,11 +39,14 @@ impl Modes {
         let model = LateralModel::new(case);
         let at = |speed: f64| {
             let band = KinematicBand::new(&case.vehicle, &case.wheel_rail.contact(), speed);
-            LateralModes::new(&model, speed, band)
+            let poles = Poles::at(&model.forced.system, speed)?;
+            LateralModes::new(&model, &poles, band)
         };
+        let vertical = VerticalModel::new(case);
+        let poles = Poles::at(&vertical.forced.system, case.service.speed)?;
         Ok(Self {
             lateral: at(case.service.speed)?,
-            vertical: vertical_modes(&VerticalModel::new(case))?,
+            vertical: vertical_modes(&vertical, &poles)?,
             against_speed: speeds
                 .iter()
                 .map(|&v| Ok((v, at(v)?)))

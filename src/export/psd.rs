@@ -5,7 +5,10 @@ use serde_json::{Map, Value, json};
 use super::{evaluation_text::title, number::significant, sheet::Sheet, table::Table};
 use crate::{
     case::Case,
-    dynamics::{ForcedModel, LateralModel, VerticalModel, eigenvalues, lateral, vertical},
+    dynamics::{
+        ForcedModel, LateralModel, VerticalModel, eigenvalues, elimination::LANES, lateral,
+        vertical,
+    },
     evaluate::response::Response,
 };
 
@@ -192,12 +195,14 @@ fn columns(
     wanted: &[(&'static str, usize)],
 ) -> Vec<Column> {
     let mut response = Response::new(model, &case.service.track, case.service.speed);
-    let mut densities = vec![0.0; model.outputs.len()];
+    let mut densities = vec![[0.0; LANES]; model.outputs.len()];
     let mut columns: Vec<Column> = wanted.iter().map(|(name, _)| (*name, Vec::new())).collect();
-    for &f in frequency {
-        response.densities(f, &mut densities);
+    for chunk in frequency.chunks(LANES) {
+        let mut f = [chunk[0]; LANES];
+        f[..chunk.len()].copy_from_slice(chunk);
+        response.densities(&f, &mut densities);
         for ((_, values), (_, output)) in columns.iter_mut().zip(wanted) {
-            values.push(densities[*output]);
+            values.extend(&densities[*output][..chunk.len()]);
         }
     }
     columns

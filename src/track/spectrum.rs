@@ -22,6 +22,24 @@ pub enum Spectrum {
 }
 
 impl Spectrum {
+    /// Corners, rad/m.
+    pub fn corners(&self) -> impl Iterator<Item = f64> + '_ {
+        let corners: &[f64] = match self {
+            Self::Rational { corners, .. } => corners,
+            Self::Points(_) => &[],
+        };
+        corners.iter().copied().filter(|corner| *corner > 0.0)
+    }
+
+    /// Wavenumbers at which its slope changes at once, rad/m.
+    pub fn kinks(&self) -> impl Iterator<Item = f64> + '_ {
+        let points: &[[f64; 2]] = match self {
+            Self::Rational { .. } => &[],
+            Self::Points(points) => points,
+        };
+        points.iter().map(|[omega, _]| *omega)
+    }
+
     /// S at wavenumber `omega` in rad/m, m²/(rad/m).
     pub fn density(&self, omega: f64) -> f64 {
         match self {

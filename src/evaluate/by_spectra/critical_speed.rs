@@ -1,18 +1,22 @@
-//! Critical speed: the lowest speed at which an oscillatory mode loses its damping (3.4.4.2).
+//! The critical speed by full spectra on a grid of speeds.
 //!
-//! Eigenvalues on a grid of speeds, each mode followed from one speed to the next. Where a mode
-//! changes from damped to growing, Newton's method finds the speed exactly. Where a mode's damping
-//! has a minimum between grid points, the minimum is looked up, so that a narrow range of
-//! instability is not stepped over. Last, the vehicle is checked to be stable just below the
-//! lowest crossing.
+//! Each mode is followed from one speed to the next. Where it changes from damped to growing,
+//! Newton's method finds the speed exactly. Where a mode's damping has a minimum between grid
+//! points, the minimum is looked up, so that a narrow range of instability is not stepped over.
+//! Last, the vehicle is checked to be stable just below the lowest crossing.
 
 use super::{
     damping_range::{dip, refine},
-    followed_modes::{Spectrum, sweep},
     hopf::{Hopf, hopf},
-    mode::{Mode, damping_ratio, frequency},
+    spectrum::{Spectrum, sweep},
 };
-use crate::dynamics::{EigenError, LateralModel, lateral::Body};
+use crate::{
+    dynamics::{EigenError, LateralModel},
+    evaluate::{
+        critical_speed::{Crossing, Stability},
+        mode::damping_ratio,
+    },
+};
 
 /// Speeds in the search grid.
 const GRID: usize = 20;
@@ -23,57 +27,11 @@ const DIVISIONS: usize = 12;
 /// Halvings of a speed interval: to 1e-12 of it.
 const BISECTIONS: usize = 40;
 
-/// Which body hunts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Hunting {
-    /// The wheelsets and truck frames carry most of the energy.
-    Truck,
-    /// The carbody does.
-    Carbody,
-}
-
-impl std::fmt::Display for Hunting {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Truck => "truck hunting",
-            Self::Carbody => "carbody hunting",
-        })
-    }
-}
-
-/// A speed at which a mode loses its damping.
-#[derive(Debug, Clone)]
-pub struct Crossing {
-    /// V, m/s.
-    pub speed: f64,
-    /// Hunting frequency, Hz.
-    pub frequency: f64,
-    /// Which body hunts.
-    pub kind: Hunting,
-    /// Shape and left vector.
-    pub mode: Mode,
-}
-
-/// Outcome of the search.
-#[derive(Debug, Clone)]
-pub struct Stability {
-    /// Range searched, m/s.
-    pub range: [f64; 2],
-    /// Onsets of instability in ascending speed. Empty: stable over the whole range.
-    pub onsets: Vec<Crossing>,
-    /// The vehicle already hunts at the lowest speed searched.
-    pub unstable_at_start: bool,
-    /// Lowest grid speed with a growing non-oscillatory motion, m/s.
-    pub divergence: Option<f64>,
-}
-
 impl Stability {
-    /// Searches `range`, m/s.
-    ///
-    /// # Errors
-    ///
-    /// [`EigenError`] if eigenvalues cannot be had.
-    pub fn search(model: &LateralModel, range: [f64; 2]) -> Result<Self, EigenError> {
+    pub(in crate::evaluate) fn by_spectra(
+        model: &LateralModel,
+        range: [f64; 2],
+    ) -> Result<Self, EigenError> {
         let ratio = range[1] / range[0];
         let speeds: Vec<f64> = (0..GRID)
             .map(|k| range[0] * ratio.powf(k as f64 / (GRID - 1) as f64))
@@ -95,20 +53,6 @@ impl Stability {
         stability.onsets.sort_by(|a, b| a.speed.total_cmp(&b.speed));
         stability.certify(model, &sweep[0])?;
         Ok(stability)
-    }
-
-    /// The critical speed, m/s: the lowest onset, or the start of the range if the vehicle already
-    /// hunts there. `None`: stable over the whole range.
-    pub fn critical_speed(&self) -> Option<f64> {
-        if self.unstable_at_start {
-            return Some(self.range[0]);
-        }
-        self.onsets.first().map(|onset| onset.speed)
-    }
-
-    /// Lowest onset of one kind of hunting.
-    pub fn onset(&self, kind: Hunting) -> Option<&Crossing> {
-        self.onsets.iter().find(|onset| onset.kind == kind)
     }
 
     /// Adds the onsets between two speeds. Two modes that lose their damping within one interval
@@ -156,22 +100,10 @@ impl Stability {
             (c.speed / found.speed - 1.0).abs() < 1e-9
                 && (c.mode.eigenvalue.im / omega - 1.0).abs() < 1e-9
         };
-        if self.onsets.iter().any(known) {
-            return;
+        if !self.onsets.iter().any(known) {
+            self.onsets
+                .push(Crossing::new(model, found.speed, found.mode));
         }
-        let carbody = found.mode.energy_share(&model.forced.system, |i| {
-            model.coordinates.coordinate(i).body() == Body::Carbody
-        });
-        self.onsets.push(Crossing {
-            speed: found.speed,
-            frequency: frequency(found.mode.eigenvalue),
-            kind: if carbody > 0.5 {
-                Hunting::Carbody
-            } else {
-                Hunting::Truck
-            },
-            mode: found.mode,
-        });
     }
 
     /// Looks for an instability that begins and ends between grid points: a mode whose damping has

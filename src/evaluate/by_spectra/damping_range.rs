@@ -1,58 +1,16 @@
-//! Damping over a range of speeds: where each lateral mode is least damped.
-//!
-//! A vehicle is stable up to a speed if no mode's damping ratio falls below zero on the way. The
-//! minima of the damping ratios over the speed change smoothly with the design, also where an
-//! instability is born at some speed within the range, at which the critical speed jumps.
+//! Least damping ratios by full spectra on a grid of speeds.
 
 use nalgebra::Complex;
 
-use super::{
-    followed_modes::{Spectrum, sweep},
-    lateral_modes::OVERDAMPED,
-    mode::{damping_ratio, frequency},
+use super::spectrum::{Spectrum, sweep};
+use crate::{
+    dynamics::{EigenError, LateralModel},
+    evaluate::{
+        damping_range::{DampingMinimum, DampingRange, Place},
+        lateral_modes::OVERDAMPED,
+        mode::{damping_ratio, frequency},
+    },
 };
-use crate::dynamics::{EigenError, LateralModel};
-
-/// Where in the range a minimum lies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    /// At the highest speed.
-    Top,
-    /// Inside the range.
-    Inside,
-    /// At the lowest speed.
-    Bottom,
-}
-
-/// A least damping ratio of one mode.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DampingMinimum {
-    /// Where.
-    pub place: Place,
-    /// V, m/s.
-    pub speed: f64,
-    /// |s|/2π, Hz.
-    pub frequency: f64,
-    /// ζ.
-    pub damping_ratio: f64,
-}
-
-impl DampingMinimum {
-    fn is_about(&self, other: &Self) -> bool {
-        self.place == other.place
-            && (self.speed / other.speed - 1.0).abs() < TWIN
-            && (self.frequency / other.frequency - 1.0).abs() < TWIN
-    }
-}
-
-/// Damping over a range of speeds.
-#[derive(Debug, Clone)]
-pub struct DampingRange {
-    /// Minima, in no particular order; never empty unless nothing oscillates.
-    pub minima: Vec<DampingMinimum>,
-    /// Whether a motion without oscillation grows at some speed.
-    pub diverges: bool,
-}
 
 /// Distance from an end of the range, as a share of the speed, at which its slope is looked up.
 const CLOSE: f64 = 1e-3;
@@ -73,14 +31,20 @@ const EDGE: f64 = 0.02;
 /// Share of an interval that the golden section takes.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
+impl DampingMinimum {
+    fn is_about(&self, other: &Self) -> bool {
+        self.place == other.place
+            && (self.speed / other.speed - 1.0).abs() < TWIN
+            && (self.frequency / other.frequency - 1.0).abs() < TWIN
+    }
+}
+
 impl DampingRange {
-    /// Looks through `range`, m/s, for minima with damping ratios `below` a value; the least at
-    /// each end is always among them.
-    ///
-    /// # Errors
-    ///
-    /// [`EigenError`] if eigenvalues cannot be had.
-    pub fn new(model: &LateralModel, range: [f64; 2], below: f64) -> Result<Self, EigenError> {
+    pub(in crate::evaluate) fn by_spectra(
+        model: &LateralModel,
+        range: [f64; 2],
+        below: f64,
+    ) -> Result<Self, EigenError> {
         let [low, high] = range;
         let mut speeds = vec![low];
         let least = (high / low).powf(0.5).min(RATIO);
@@ -114,12 +78,6 @@ impl DampingRange {
             found.inside(model, &[next.clone(), close, last.clone()], below)?;
         }
         Ok(found)
-    }
-
-    /// The least damping ratio in the range.
-    pub fn least(&self) -> Option<DampingMinimum> {
-        let minima = self.minima.iter().copied();
-        minima.min_by(|a, b| a.damping_ratio.total_cmp(&b.damping_ratio))
     }
 
     fn end(&mut self, spectrum: &Spectrum, place: Place, below: f64) {

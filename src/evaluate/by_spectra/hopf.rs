@@ -2,8 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use super::mode::Mode;
-use crate::dynamics::LinearSystem;
+use crate::{dynamics::LinearSystem, evaluate::mode::Mode};
 
 /// A purely imaginary eigenvalue iω at speed V.
 #[derive(Debug, Clone)]

@@ -2,8 +2,10 @@
 
 use nalgebra::Complex;
 
-use super::{lateral_modes::OVERDAMPED, mode::damping_ratio};
-use crate::dynamics::{EigenError, LateralModel, eigenvalues};
+use crate::{
+    dynamics::{EigenError, LateralModel, Poles},
+    evaluate::{lateral_modes::OVERDAMPED, mode::damping_ratio},
+};
 
 /// Oscillatory eigenvalues at one speed.
 #[derive(Debug, Clone)]
@@ -48,11 +50,11 @@ pub(super) fn sweep(
 impl Spectrum {
     /// Computes them at `speed`, m/s.
     pub fn at(model: &LateralModel, speed: f64) -> Result<Self, EigenError> {
-        let values = eigenvalues(model.forced.system.state_matrix(speed))?;
+        let poles = Poles::at(&model.forced.system, speed)?;
         Ok(Self {
             speed,
-            diverges: values.iter().any(|s| s.im == 0.0 && s.re > 0.0),
-            oscillatory: values.into_iter().filter(|s| s.im > 0.0).collect(),
+            diverges: poles.values.iter().any(|s| s.im == 0.0 && s.re > 0.0),
+            oscillatory: poles.oscillatory().collect(),
         })
     }
 

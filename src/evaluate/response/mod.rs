@@ -6,203 +6,170 @@
 //!
 //! Input reaches wheelset i delayed by its distance behind the first wheelset over V, exactly.
 
-use std::f64::consts::TAU;
+pub mod plain;
+mod terms;
 
-use faer::{
-    Mat, Par, Spec,
-    dyn_stack::{MemBuffer, MemStack},
-    linalg::lu::partial_pivoting::{factor, solve},
+use std::{f64::consts::TAU, ops::Range};
+
+use pulp::{Arch, Simd, WithSimd};
+
+use crate::{
+    dynamics::{
+        ForcedModel,
+        elimination::{Factors, LANES, Lanes, Stiffness},
+    },
+    track::Track,
 };
-use nalgebra::{Complex, DMatrix};
+use terms::{Force, OutputTerms, Source};
 
-use crate::{dynamics::ForcedModel, track::Track};
-
-/// A forced model at one speed, ready to be evaluated at many frequencies without allocation.
-///
-/// Coordinates that nothing couples are solved apart: bounce and pitch of the vertical model know
-/// nothing of roll.
+/// A forced model at one speed, ready to be evaluated at many frequencies, [`LANES`] at a time,
+/// without allocation.
 pub struct Response<'a> {
     model: &'a ForcedModel,
     track: &'a Track,
     speed: f64,
-    /// C at the speed, over [q, u].
-    damping: DMatrix<f64>,
-    blocks: Vec<Block>,
-    /// q of each excitation for unit irregularity, n per excitation.
-    q: Vec<Complex<f64>>,
-    /// u likewise.
-    u: Vec<Complex<f64>>,
+    outputs: Range<usize>,
+    arch: Arch,
+    stiffness: Stiffness,
+    factors: Factors,
+    excitations: Vec<Excited>,
 }
 
-/// Coordinates that are coupled with one another, and the excitations that reach them.
-struct Block {
-    coordinates: Vec<usize>,
-    excitations: Vec<usize>,
-    lu: Mat<Complex<f64>>,
-    /// One right-hand side per excitation.
-    q: Mat<Complex<f64>>,
-    permutation: [Vec<usize>; 2],
-    scratch: MemBuffer,
-}
-
-impl Block {
-    fn new(coordinates: Vec<usize>, excitations: Vec<usize>) -> Self {
-        let (n, m) = (coordinates.len(), excitations.len());
-        let scratch =
-            factor::lu_in_place_scratch::<usize, Complex<f64>>(n, n, Par::Seq, Spec::default()).or(
-                solve::solve_in_place_scratch::<usize, Complex<f64>>(n, m, Par::Seq),
-            );
-        Self {
-            coordinates,
-            excitations,
-            lu: Mat::zeros(n, n),
-            q: Mat::zeros(n, m),
-            permutation: [vec![0; n], vec![0; n]],
-            scratch: MemBuffer::new(scratch),
-        }
-    }
-
-    fn solve(&mut self) {
-        let stack = MemStack::new(&mut self.scratch);
-        let [forward, backward] = &mut self.permutation;
-        let (_, permutation) = factor::lu_in_place(
-            self.lu.as_mut(),
-            forward,
-            backward,
-            Par::Seq,
-            stack,
-            Spec::default(),
-        );
-        let lu = self.lu.as_ref();
-        solve::solve_in_place(lu, lu, permutation, self.q.as_mut(), Par::Seq, stack);
-    }
-}
-
-/// Groups of coordinates that K or C couple.
-fn coupled(stiffness: &DMatrix<f64>, damping: &DMatrix<f64>) -> Vec<Vec<usize>> {
-    let n = stiffness.nrows();
-    let couples = |i: usize, j: usize| stiffness[(i, j)] != 0.0 || damping[(i, j)] != 0.0;
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    for i in 0..n {
-        let (joined, mut apart): (Vec<_>, Vec<_>) = groups
-            .into_iter()
-            .partition(|group| group.iter().any(|&j| couples(i, j) || couples(j, i)));
-        let mut group: Vec<usize> = joined.into_iter().flatten().chain([i]).collect();
-        group.sort_unstable();
-        apart.push(group);
-        groups = apart;
-    }
-    groups
+/// One excitation: what it puts on the coordinates, what outputs it reaches, and the response.
+struct Excited {
+    forces: Vec<Force>,
+    outputs: Vec<OutputTerms>,
+    q: Vec<Lanes>,
 }
 
 impl<'a> Response<'a> {
-    /// The model on a track at `speed`, m/s.
+    /// All outputs of the model on a track at `speed`, m/s.
     pub fn new(model: &'a ForcedModel, track: &'a Track, speed: f64) -> Self {
+        Self::of(model, track, speed, 0..model.outputs.len())
+    }
+
+    /// Some of its outputs.
+    pub fn of(model: &'a ForcedModel, track: &'a Track, speed: f64, outputs: Range<usize>) -> Self {
         let system = &model.system;
-        let damping = system.damping_at(speed);
-        let reached = |group: &[usize], inputs: &[usize; 4]| {
-            group.iter().any(|&i| {
-                inputs
-                    .iter()
-                    .any(|&j| system.stiffness[(i, j)] != 0.0 || damping[(i, j)] != 0.0)
-            })
-        };
-        let blocks = coupled(&system.stiffness, &damping)
-            .into_iter()
-            .map(|group| {
-                let excitations = (0..model.excitations.len())
-                    .filter(|&p| reached(&group, &model.excitations[p].inputs))
-                    .collect();
-                Block::new(group, excitations)
-            })
-            .collect();
+        let stiffness = Stiffness::new(system);
+        let mut factors = stiffness.factors();
+        stiffness.set_speeds(&[speed; LANES], &mut factors);
+        let excitations = model.excitations.iter().map(|excitation| Excited {
+            forces: terms::forces(system, excitation, speed),
+            outputs: terms::outputs(model, excitation, outputs.clone()),
+            q: vec![Lanes::ZERO; system.order()],
+        });
         Self {
+            excitations: excitations.collect(),
+            factors,
+            arch: Arch::new(),
+            stiffness,
             model,
             track,
             speed,
-            blocks,
-            q: vec![Complex::ZERO; system.order() * model.excitations.len()],
-            u: vec![Complex::ZERO; system.inputs * model.excitations.len()],
-            damping,
+            outputs,
         }
     }
 
-    /// Power spectral density of every output at frequency `f` in Hz, one-sided, per Hz.
-    pub fn densities(&mut self, f: f64, densities: &mut [f64]) {
-        let omega = TAU * f;
-        self.solve(omega);
-        densities.fill(0.0);
-        for (p, excitation) in self.model.excitations.iter().enumerate() {
+    /// Power spectral densities of the outputs at frequencies `f` in Hz, one-sided, per Hz.
+    pub fn densities(&mut self, f: &[f64; LANES], densities: &mut [[f64; LANES]]) {
+        let arch = self.arch;
+        arch.dispatch(Batch {
+            response: self,
+            f,
+            densities,
+        });
+        if self.factors.sound != [true; LANES] {
+            self.mend(f, densities);
+        }
+    }
+
+    /// Goes over the frequencies at which the elimination lost digits.
+    #[cold]
+    fn mend(&self, f: &[f64; LANES], densities: &mut [[f64; LANES]]) {
+        let mut plain = vec![0.0; self.model.outputs.len()];
+        for l in (0..LANES).filter(|&l| !self.factors.sound[l]) {
+            plain::densities(self.model, self.track, self.speed, f[l], &mut plain);
+            for (density, value) in densities.iter_mut().zip(&plain[self.outputs.clone()]) {
+                density[l] = *value;
+            }
+        }
+    }
+}
+
+struct Batch<'r, 'a> {
+    response: &'r mut Response<'a>,
+    f: &'r [f64; LANES],
+    densities: &'r mut [[f64; LANES]],
+}
+
+impl WithSimd for Batch<'_, '_> {
+    type Output = ();
+
+    #[allow(clippy::inline_always)] // Where the vector unit is known.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Response {
+            model,
+            track,
+            speed,
+            stiffness,
+            factors,
+            excitations,
+            ..
+        } = self.response;
+        let omega = self.f.map(|f| TAU * f);
+        let s = Lanes {
+            re: [0.0; LANES],
+            im: omega,
+        };
+        stiffness.factor(&s, factors);
+        let phases = phases(&omega, &model.lags, *speed);
+        self.densities.fill([0.0; LANES]);
+        for (excited, excitation) in excitations.iter_mut().zip(&model.excitations) {
+            let Excited { forces, outputs, q } = excited;
+            q.fill(Lanes::ZERO);
+            for force in forces.iter() {
+                let phase = &phases[force.wheelset];
+                let q = &mut q[force.coordinate];
+                for l in 0..LANES {
+                    let damped = omega[l] * force.c;
+                    q.re[l] += force.k * phase.re[l] - damped * phase.im[l];
+                    q.im[l] += force.k * phase.im[l] + damped * phase.re[l];
+                }
+            }
+            stiffness.solve(factors, q);
             // S in time frequency: S(Ω) dΩ/df with Ω = 2πf/V (3.4.2-5, 6).
-            let input = self
-                .track
-                .spectrum(excitation.irregularity)
-                .density(omega / self.speed)
-                * TAU
-                / self.speed;
-            for (k, density) in densities.iter_mut().enumerate() {
-                *density += self.transfer(k, p, omega).norm_sqr() * input;
+            let spectrum = track.spectrum(excitation.irregularity);
+            let input = omega.map(|omega| spectrum.density(omega / *speed) * TAU / *speed);
+            for (density, output) in self.densities.iter_mut().zip(outputs.iter()) {
+                let transfer = output.transfer(&omega, |source| match source {
+                    Source::Coordinate(i) => &q[i],
+                    Source::Wheelset(i) => &phases[i],
+                });
+                let square = transfer.norm_sqr();
+                for l in 0..LANES {
+                    density[l] += square[l] * input[l];
+                }
             }
         }
     }
+}
 
-    /// Transfer function from excitation `p` to output `k` at the frequency solved last.
-    fn transfer(&self, k: usize, p: usize, omega: f64) -> Complex<f64> {
-        let n = self.model.system.order();
-        let inputs = self.model.system.inputs;
-        let sum = |row: &crate::dynamics::Row| -> Complex<f64> {
-            row.terms()
-                .iter()
-                .map(|&(i, c)| {
-                    let x = if i < n {
-                        self.q[p * n + i]
-                    } else {
-                        self.u[p * inputs + i - n]
-                    };
-                    x * c
-                })
-                .sum()
-        };
-        let output = &self.model.outputs[k];
-        sum(&output.displacement) + sum(&output.velocity) * Complex::new(0.0, omega)
-            - sum(&output.acceleration) * (omega * omega)
-    }
-
-    /// Fills q and u for angular frequency ω.
-    fn solve(&mut self, omega: f64) {
-        let system = &self.model.system;
-        let n = system.order();
-        let entry = |i: usize, j: usize| {
-            Complex::new(system.stiffness[(i, j)], omega * self.damping[(i, j)])
-        };
-        for (p, excitation) in self.model.excitations.iter().enumerate() {
-            for (&input, &lag) in excitation.inputs.iter().zip(&self.model.lags) {
-                self.u[p * system.inputs + input - n] =
-                    Complex::from_polar(excitation.scale, -omega * lag / self.speed);
-            }
+/// e^{−iωτ} of the four wheelsets. Wheelset 4 is as far behind 3 as 2 behind 1.
+#[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
+#[inline(always)]
+fn phases(omega: &[f64; LANES], lags: &[f64; 4], speed: f64) -> [Lanes; 4] {
+    let delayed = |lag: f64| {
+        let mut phase = Lanes::ZERO;
+        for l in 0..LANES {
+            let (sin, cos) = (omega[l] * lag / speed).sin_cos();
+            (phase.re[l], phase.im[l]) = (cos, -sin);
         }
-        for block in &mut self.blocks {
-            for (col, &j) in block.coordinates.iter().enumerate() {
-                for (row, &i) in block.coordinates.iter().enumerate() {
-                    block.lu[(row, col)] = entry(i, j);
-                }
-                block.lu[(col, col)].re -= omega * omega * system.mass[j];
-            }
-            for (column, &p) in block.excitations.iter().enumerate() {
-                for (row, &i) in block.coordinates.iter().enumerate() {
-                    block.q[(row, column)] = -self.model.excitations[p]
-                        .inputs
-                        .iter()
-                        .map(|&j| entry(i, j) * self.u[p * system.inputs + j - n])
-                        .sum::<Complex<f64>>();
-                }
-            }
-            block.solve();
-            for (column, &p) in block.excitations.iter().enumerate() {
-                for (row, &i) in block.coordinates.iter().enumerate() {
-                    self.q[p * n + i] = block.q[(row, column)];
-                }
-            }
-        }
-    }
+        phase
+    };
+    let (wheelbase, trucks) = (delayed(lags[1] - lags[0]), delayed(lags[2] - lags[0]));
+    let mut first = Lanes::ZERO;
+    first.re = [1.0; LANES];
+    [first, wheelbase, trucks, trucks.times(&wheelbase)]
 }

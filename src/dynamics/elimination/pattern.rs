@@ -1,0 +1,253 @@
+//! Which entries an elimination touches, and the elimination itself.
+
+use super::lanes::{LANES, Lanes};
+
+/// Order of pivots and entries to be worked on, for all matrices with nonzeros in the same places.
+///
+/// Pivots are diagonal entries, chosen beforehand for the least fill (Markowitz 1957); how good
+/// they were is told afterwards by [`Pattern::factor`].
+#[derive(Debug, Clone)]
+pub struct Pattern {
+    order: usize,
+    /// Slot of entry (i, j) at i·n + j.
+    slots: Vec<Option<u16>>,
+    pivots: Vec<Pivot>,
+    /// Entries below and right of the pivots.
+    lower: Vec<Entry>,
+    upper: Vec<Entry>,
+    /// Slots a, l, u of a −= l u.
+    updates: Vec<[u16; 3]>,
+    count: usize,
+}
+
+/// Square of the share of a diagonal entry below which a pivot is too small: ten of sixteen digits
+/// remain.
+const LOST: f64 = 1e-12;
+
+#[derive(Debug, Clone, Copy)]
+struct Entry {
+    /// Coordinate of the row below, or of the column to the right.
+    coordinate: u16,
+    slot: u16,
+}
+
+#[derive(Debug, Clone)]
+struct Pivot {
+    coordinate: usize,
+    slot: usize,
+    lower: std::ops::Range<usize>,
+    upper: std::ops::Range<usize>,
+    updates: std::ops::Range<usize>,
+}
+
+// Compiled into the caller, where the vector unit is known.
+#[allow(clippy::inline_always)]
+impl Pattern {
+    /// The elimination of matrices of order `n`, at most 32, with nonzeros where `filled` says; the
+    /// diagonal is always taken as such.
+    pub fn new(n: usize, filled: impl Fn(usize, usize) -> bool) -> Self {
+        // Columns of the nonzeros of each row, and rows of those of each column, as bits.
+        let (mut rows, mut columns) = ([0_u32; 32], [0_u32; 32]);
+        for i in 0..n {
+            for j in 0..n {
+                if i == j || filled(i, j) {
+                    rows[i] |= 1 << j;
+                    columns[j] |= 1 << i;
+                }
+            }
+        }
+        let mut rest = u32::MAX >> (32 - n);
+        let mut steps = Vec::with_capacity(n);
+        while rest != 0 {
+            let others = |k: usize| rest & !(1 << k);
+            let cost = |k: usize| {
+                (rows[k] & others(k)).count_ones() * (columns[k] & others(k)).count_ones()
+            };
+            let Some(k) = bits(rest).min_by_key(|&k| (cost(k), k)) else {
+                break;
+            };
+            let (below, right) = (columns[k] & others(k), rows[k] & others(k));
+            for i in bits(below) {
+                rows[i] |= right;
+            }
+            for j in bits(right) {
+                columns[j] |= below;
+            }
+            rest = others(k);
+            steps.push((k, below, right));
+        }
+        let mut pattern = Self {
+            order: n,
+            slots: vec![None; n * n],
+            pivots: Vec::with_capacity(n),
+            lower: Vec::with_capacity(4 * n),
+            upper: Vec::with_capacity(4 * n),
+            updates: Vec::with_capacity(16 * n),
+            count: 0,
+        };
+        for (i, row) in rows.iter().enumerate().take(n) {
+            for j in bits(*row) {
+                pattern.slots[i * n + j] = u16::try_from(pattern.count).ok();
+                pattern.count += 1;
+            }
+        }
+        for (k, below, right) in steps {
+            pattern.add_pivot(k, below, right);
+        }
+        pattern
+    }
+
+    fn add_pivot(&mut self, k: usize, below: u32, right: u32) {
+        let n = self.order;
+        let (l, u, x) = (self.lower.len(), self.upper.len(), self.updates.len());
+        let slots = &self.slots;
+        let entry = |coordinate: usize, i: usize, j: usize| {
+            let coordinate = u16::try_from(coordinate).ok()?;
+            slots[i * n + j].map(|slot| Entry { coordinate, slot })
+        };
+        self.lower
+            .extend(bits(below).filter_map(|i| entry(i, i, k)));
+        self.upper
+            .extend(bits(right).filter_map(|j| entry(j, k, j)));
+        for i in bits(below) {
+            for j in bits(right) {
+                let [a, b, c] = [(i, j), (i, k), (k, j)].map(|(i, j)| slots[i * n + j]);
+                if let (Some(a), Some(b), Some(c)) = (a, b, c) {
+                    self.updates.push([a, b, c]);
+                }
+            }
+        }
+        self.pivots.push(Pivot {
+            coordinate: k,
+            slot: usize::from(slots[k * n + k].unwrap_or_default()),
+            lower: l..self.lower.len(),
+            upper: u..self.upper.len(),
+            updates: x..self.updates.len(),
+        });
+    }
+
+    /// Order of the matrices.
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// Number of entries of a matrix, those that fill up included.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Where entry (i, j) is kept; `None` where it is always zero.
+    pub fn slot(&self, i: usize, j: usize) -> Option<usize> {
+        self.slots[i * self.order + j].map(usize::from)
+    }
+
+    /// Multiplications and additions of complex numbers in one factorisation, and in one solution.
+    pub fn operations(&self) -> [usize; 2] {
+        let triangles = self.lower.len() + self.upper.len();
+        [
+            self.updates.len() + self.lower.len(),
+            triangles + self.order,
+        ]
+    }
+
+    /// Factors L U in place, the inverse pivots on the diagonal. `diagonal` gets the squares of the
+    /// diagonal before. Returns false in lanes where a pivot has lost digits against it.
+    #[inline(always)]
+    pub fn factor(&self, a: &mut [Lanes], diagonal: &mut [[f64; LANES]]) -> [bool; LANES] {
+        for (pivot, size) in self.pivots.iter().zip(diagonal.iter_mut()) {
+            *size = a[pivot.slot].norm_sqr();
+        }
+        let mut margin = [f64::INFINITY; LANES];
+        for (pivot, size) in self.pivots.iter().zip(diagonal) {
+            let left = a[pivot.slot].norm_sqr();
+            for l in 0..LANES {
+                margin[l] = margin[l].min(left[l] - LOST * size[l]);
+            }
+            let inverse = a[pivot.slot].inverse();
+            a[pivot.slot] = inverse;
+            for entry in &self.lower[pivot.lower.clone()] {
+                let slot = usize::from(entry.slot);
+                a[slot] = a[slot].times(&inverse);
+            }
+            for [target, l, u] in &self.updates[pivot.updates.clone()] {
+                let (l, u) = (a[usize::from(*l)], a[usize::from(*u)]);
+                a[usize::from(*target)].subtract_product(&l, &u);
+            }
+        }
+        margin.map(|m| m > 0.0)
+    }
+
+    /// Direction of the determinant in the complex plane, from the factors.
+    #[inline(always)]
+    pub fn determinant(&self, a: &[Lanes]) -> Lanes {
+        let mut product = Lanes::ZERO;
+        product.re = [1.0; LANES];
+        for pivot in &self.pivots {
+            let inverse = &a[pivot.slot];
+            product = product.times(inverse);
+            for l in 0..LANES {
+                let scale = 1.0 / (product.re[l].abs() + product.im[l].abs());
+                product.re[l] *= scale;
+                product.im[l] *= scale;
+            }
+        }
+        product.im = product.im.map(|im| -im);
+        product
+    }
+
+    /// x ← A⁻¹ x with the factors of [`Pattern::factor`].
+    #[inline(always)]
+    pub fn solve(&self, a: &[Lanes], x: &mut [Lanes]) {
+        for pivot in &self.pivots {
+            let known = x[pivot.coordinate];
+            for entry in &self.lower[pivot.lower.clone()] {
+                x[usize::from(entry.coordinate)]
+                    .subtract_product(&a[usize::from(entry.slot)], &known);
+            }
+        }
+        for pivot in self.pivots.iter().rev() {
+            let mut sum = x[pivot.coordinate];
+            for entry in &self.upper[pivot.upper.clone()] {
+                sum.subtract_product(
+                    &a[usize::from(entry.slot)],
+                    &x[usize::from(entry.coordinate)],
+                );
+            }
+            x[pivot.coordinate] = sum.times(&a[pivot.slot]);
+        }
+    }
+
+    /// x ← A⁻ᵀ x.
+    #[inline(always)]
+    pub fn solve_transposed(&self, a: &[Lanes], x: &mut [Lanes]) {
+        for pivot in &self.pivots {
+            let known = x[pivot.coordinate].times(&a[pivot.slot]);
+            x[pivot.coordinate] = known;
+            for entry in &self.upper[pivot.upper.clone()] {
+                x[usize::from(entry.coordinate)]
+                    .subtract_product(&a[usize::from(entry.slot)], &known);
+            }
+        }
+        for pivot in self.pivots.iter().rev() {
+            let mut sum = x[pivot.coordinate];
+            for entry in &self.lower[pivot.lower.clone()] {
+                sum.subtract_product(
+                    &a[usize::from(entry.slot)],
+                    &x[usize::from(entry.coordinate)],
+                );
+            }
+            x[pivot.coordinate] = sum;
+        }
+    }
+}
+
+/// Numbers of the bits that are set.
+fn bits(mut mask: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        (mask != 0).then(|| {
+            let bit = mask.trailing_zeros();
+            mask &= mask - 1;
+            bit as usize
+        })
+    })
+}

@@ -1,0 +1,195 @@
+//! Dynamic stiffness of a model, factored for several frequencies at once.
+
+use super::{
+    lanes::{LANES, Lanes},
+    pattern::Pattern,
+};
+use crate::dynamics::LinearSystem;
+
+/// D(s) = s² M + s C(V) + K of the coordinates of a system.
+#[derive(Debug, Clone)]
+pub struct Stiffness {
+    pattern: Pattern,
+    entries: Vec<Entry>,
+    /// Slots that only elimination fills.
+    empty: Vec<usize>,
+}
+
+/// One entry of K, of C0, C1 and C2, and of M.
+#[derive(Debug, Clone, Copy)]
+struct Entry {
+    row: usize,
+    column: usize,
+    slot: usize,
+    k: f64,
+    c: [f64; 3],
+    m: f64,
+}
+
+/// Room for the factors.
+#[derive(Debug, Clone)]
+pub struct Factors {
+    a: Vec<Lanes>,
+    /// C at the speeds, entry by entry.
+    damping: Vec<[f64; LANES]>,
+    diagonal: Vec<[f64; LANES]>,
+    /// Lanes in which no digits were lost.
+    pub sound: [bool; LANES],
+}
+
+// Compiled into the caller, where the vector unit is known.
+#[allow(clippy::inline_always)]
+impl Stiffness {
+    /// Of a system.
+    pub fn new(system: &LinearSystem) -> Self {
+        let n = system.order();
+        let dampings = |i: usize, j: usize| system.damping.each_ref().map(|c| c[(i, j)]);
+        let filled = |i: usize, j: usize| {
+            system.stiffness[(i, j)] != 0.0 || dampings(i, j).iter().any(|c| *c != 0.0)
+        };
+        let pattern = Pattern::new(n, filled);
+        let mut entries = Vec::with_capacity(pattern.count());
+        for row in 0..n {
+            for column in (0..n).filter(|&j| row == j || filled(row, j)) {
+                let Some(slot) = pattern.slot(row, column) else {
+                    continue;
+                };
+                entries.push(Entry {
+                    row,
+                    column,
+                    slot,
+                    k: system.stiffness[(row, column)],
+                    c: dampings(row, column),
+                    m: if row == column { system.mass[row] } else { 0.0 },
+                });
+            }
+        }
+        let mut empty: Vec<usize> = (0..pattern.count()).collect();
+        empty.retain(|slot| !entries.iter().any(|entry: &Entry| entry.slot == *slot));
+        Self {
+            pattern,
+            entries,
+            empty,
+        }
+    }
+
+    /// Number of coordinates.
+    pub fn order(&self) -> usize {
+        self.pattern.order()
+    }
+
+    /// Room for its factors.
+    pub fn factors(&self) -> Factors {
+        Factors {
+            a: vec![Lanes::ZERO; self.pattern.count()],
+            damping: vec![[0.0; LANES]; self.entries.len()],
+            diagonal: vec![[0.0; LANES]; self.order()],
+            sound: [false; LANES],
+        }
+    }
+
+    /// Takes C at speeds `v`, m/s.
+    #[inline(always)]
+    pub fn set_speeds(&self, v: &[f64; LANES], factors: &mut Factors) {
+        let slowness = v.map(|v| 1.0 / v);
+        for (entry, damping) in self.entries.iter().zip(&mut factors.damping) {
+            let [c0, c1, c2] = entry.c;
+            for l in 0..LANES {
+                damping[l] = c0 + c1 * slowness[l] + c2 * v[l];
+            }
+        }
+    }
+
+    /// Factors D(s) at the speeds set.
+    #[inline(always)]
+    pub fn factor(&self, s: &Lanes, factors: &mut Factors) {
+        let square = s.times(s);
+        for &slot in &self.empty {
+            factors.a[slot] = Lanes::ZERO;
+        }
+        for (entry, c) in self.entries.iter().zip(&factors.damping) {
+            let a = &mut factors.a[entry.slot];
+            if entry.m == 0.0 {
+                for l in 0..LANES {
+                    a.re[l] = entry.k + c[l] * s.re[l];
+                    a.im[l] = c[l] * s.im[l];
+                }
+            } else {
+                for l in 0..LANES {
+                    a.re[l] = entry.k + c[l] * s.re[l] + entry.m * square.re[l];
+                    a.im[l] = c[l] * s.im[l] + entry.m * square.im[l];
+                }
+            }
+        }
+        factors.sound = self.pattern.factor(&mut factors.a, &mut factors.diagonal);
+    }
+
+    /// x ← D⁻¹ x.
+    #[inline(always)]
+    pub fn solve(&self, factors: &Factors, x: &mut [Lanes]) {
+        self.pattern.solve(&factors.a, x);
+    }
+
+    /// x ← D⁻ᵀ x.
+    #[inline(always)]
+    pub fn solve_transposed(&self, factors: &Factors, x: &mut [Lanes]) {
+        self.pattern.solve_transposed(&factors.a, x);
+    }
+
+    /// Direction of det D in the complex plane, of length about one.
+    #[inline(always)]
+    pub fn determinant(&self, factors: &Factors) -> Lanes {
+        self.pattern.determinant(&factors.a)
+    }
+
+    /// D′ x and D′ᵀ y at the speeds set, with D′ = ∂D/∂s = 2 s M + C(V).
+    #[inline(always)]
+    pub fn derivative_times(
+        &self,
+        s: &Lanes,
+        factors: &Factors,
+        [x, y]: [&[Lanes]; 2],
+        [dx, dy]: [&mut [Lanes]; 2],
+    ) {
+        dx.fill(Lanes::ZERO);
+        dy.fill(Lanes::ZERO);
+        for (entry, c) in self.entries.iter().zip(&factors.damping) {
+            let (i, j) = (entry.row, entry.column);
+            if entry.m != 0.0 {
+                let mut d = Lanes::ZERO;
+                for l in 0..LANES {
+                    d.re[l] = c[l] + 2.0 * entry.m * s.re[l];
+                    d.im[l] = 2.0 * entry.m * s.im[l];
+                }
+                dx[i].add_product(&d, &x[i]);
+                dy[i].add_product(&d, &y[i]);
+            } else if entry.c.iter().any(|c| *c != 0.0) {
+                for l in 0..LANES {
+                    dx[i].re[l] += c[l] * x[j].re[l];
+                    dx[i].im[l] += c[l] * x[j].im[l];
+                    dy[j].re[l] += c[l] * y[i].re[l];
+                    dy[j].im[l] += c[l] * y[i].im[l];
+                }
+            }
+        }
+    }
+
+    /// yᵀ V ∂D/∂V x / s = yᵀ (C2 V − C1/V) x.
+    #[inline(always)]
+    pub fn by_speed(&self, v: &[f64; LANES], x: &[Lanes], y: &[Lanes]) -> Lanes {
+        let slowness = v.map(|v| 1.0 / v);
+        let mut sum = Lanes::ZERO;
+        for entry in &self.entries {
+            let [_, c1, c2] = entry.c;
+            if c1 != 0.0 || c2 != 0.0 {
+                let product = y[entry.row].times(&x[entry.column]);
+                for l in 0..LANES {
+                    let c = c2 * v[l] - c1 * slowness[l];
+                    sum.re[l] += c * product.re[l];
+                    sum.im[l] += c * product.im[l];
+                }
+            }
+        }
+        sum
+    }
+}

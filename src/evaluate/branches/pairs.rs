@@ -1,0 +1,237 @@
+//! Eigenvalues with right and left vectors, several side by side.
+
+use nalgebra::{Complex, DVector};
+use pulp::{Arch, Simd, WithSimd};
+
+use crate::{
+    dynamics::{
+        LinearSystem,
+        elimination::{Factors, LANES, Lanes, Stiffness},
+    },
+    evaluate::mode::Mode,
+};
+
+/// [`LANES`] eigenpairs D(s) x = 0, yᵀ D(s) = 0, each at a speed of its own.
+#[derive(Debug, Clone)]
+pub struct Pairs {
+    /// s, rad/s.
+    pub s: Lanes,
+    /// V, m/s.
+    pub speed: [f64; LANES],
+    /// ds/d ln V.
+    pub slope: Lanes,
+    /// Change of s in the last step, relative.
+    pub change: [f64; LANES],
+    x: Vec<Lanes>,
+    y: Vec<Lanes>,
+    /// D′ x and D′ᵀ y.
+    dx: Vec<Lanes>,
+    dy: Vec<Lanes>,
+}
+
+impl Pairs {
+    /// Estimates of eigenvalues without vectors.
+    pub fn near(s: Lanes, speed: [f64; LANES], order: usize) -> Self {
+        // Any start that is in no coordinate plane.
+        let start: Vec<Lanes> = (0..order)
+            .map(|i| Lanes::from_fn(|_| Complex::new(1.0, 0.3 + 0.1 * i as f64)))
+            .collect();
+        Self {
+            s,
+            speed,
+            slope: Lanes::ZERO,
+            change: [f64::INFINITY; LANES],
+            x: start.clone(),
+            y: start.clone(),
+            dx: start.clone(),
+            dy: start,
+        }
+    }
+
+    /// Takes the pair in lane `from` of others into lane `to`.
+    pub fn take(&mut self, to: usize, others: &Self, from: usize) {
+        let copy = |into: &mut [Lanes], of: &[Lanes]| {
+            for (into, of) in into.iter_mut().zip(of) {
+                (into.re[to], into.im[to]) = (of.re[from], of.im[from]);
+            }
+        };
+        copy(&mut self.x, &others.x);
+        copy(&mut self.y, &others.y);
+        copy(&mut self.dx, &others.dx);
+        copy(&mut self.dy, &others.dy);
+        copy(
+            std::slice::from_mut(&mut self.s),
+            std::slice::from_ref(&others.s),
+        );
+        self.speed[to] = others.speed[from];
+    }
+
+    /// |x̄ᵀ x′| of two pairs.
+    pub fn alignment((a, i): (&Self, usize), (b, j): (&Self, usize)) -> f64 {
+        let products = a.x.iter().zip(&b.x);
+        products
+            .map(|(a, b)| a.lane(i).conj() * b.lane(j))
+            .sum::<Complex<f64>>()
+            .norm()
+    }
+
+    /// The mode in lane `l`.
+    pub fn mode(&self, l: usize) -> Option<Mode> {
+        let vector = |v: &[Lanes]| DVector::from_fn(v.len(), |i, _| v[i].lane(l));
+        Mode::normalised(
+            self.s.lane(l),
+            &vector(&self.x),
+            &vector(&self.y).map(|y| y.conj()),
+        )
+    }
+}
+
+/// Refines eigenpairs of a system.
+pub struct Refiner {
+    stiffness: Stiffness,
+    factors: Factors,
+    residual: Vec<Lanes>,
+    arch: Arch,
+}
+
+/// Relative change of s below which the next step would change nothing: its error falls with the
+/// cube of the one before.
+pub(super) const SETTLED: f64 = 1e-6;
+/// Steps allowed.
+const STEPS: usize = 6;
+
+impl Refiner {
+    /// Of a system.
+    pub fn new(system: &LinearSystem) -> Self {
+        let stiffness = Stiffness::new(system);
+        Self {
+            factors: stiffness.factors(),
+            residual: vec![Lanes::ZERO; stiffness.order()],
+            arch: Arch::new(),
+            stiffness,
+        }
+    }
+
+    /// Number of coordinates.
+    pub fn order(&self) -> usize {
+        self.stiffness.order()
+    }
+
+    /// The stiffness and room for its factors.
+    pub(super) fn parts(&mut self) -> (&Stiffness, &mut Factors, Arch) {
+        (&self.stiffness, &mut self.factors, self.arch)
+    }
+
+    /// Steps until s in all lanes below `used` changes by less than `settled`, relative; whether
+    /// it does.
+    pub fn settle(&mut self, pairs: &mut Pairs, used: usize, settled: f64) -> bool {
+        for _ in 0..STEPS {
+            self.step(pairs);
+            let changes = &pairs.change[..used];
+            // NaN counts as not settled.
+            if changes.iter().all(|change| *change < settled) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// One step of two-sided Rayleigh quotient iteration (Ostrowski 1958; for dynamic stiffness:
+    /// Lancaster 1961).
+    ///
+    /// ```math
+    /// D(s) x⁺ = D′ x,   D(s)ᵀ y⁺ = D′ᵀ y,   s⁺ = s − y⁺ᵀ D x⁺ / (y⁺ᵀ D′ x⁺)
+    /// ```
+    pub fn step(&mut self, pairs: &mut Pairs) {
+        let arch = self.arch;
+        arch.dispatch(Step {
+            refiner: self,
+            pairs,
+        });
+    }
+}
+
+struct Step<'r> {
+    refiner: &'r mut Refiner,
+    pairs: &'r mut Pairs,
+}
+
+impl WithSimd for Step<'_> {
+    type Output = ();
+
+    #[allow(clippy::inline_always)] // Where the vector unit is known.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Refiner {
+            stiffness,
+            factors,
+            residual,
+            ..
+        } = self.refiner;
+        let Pairs {
+            s,
+            speed,
+            slope,
+            change,
+            x,
+            y,
+            dx,
+            dy,
+        } = self.pairs;
+        stiffness.set_speeds(speed, factors);
+        stiffness.factor(s, factors);
+        residual.copy_from_slice(dx);
+        x.copy_from_slice(dx);
+        y.copy_from_slice(dy);
+        stiffness.solve(factors, x);
+        stiffness.solve_transposed(factors, y);
+        let scale = normalise(x);
+        normalise(y);
+        stiffness.derivative_times(s, factors, [x, y], [dx, dy]);
+        let (rest, weight) = (dot(y, residual), dot(y, dx).inverse());
+        let by_speed = stiffness.by_speed(speed, x, y);
+        *slope = s.times(&by_speed).times(&weight);
+        let step = rest.times(&weight);
+        for l in 0..LANES {
+            slope.re[l] = -slope.re[l];
+            slope.im[l] = -slope.im[l];
+            let (re, im) = (step.re[l] * scale[l], step.im[l] * scale[l]);
+            s.re[l] -= re;
+            s.im[l] -= im;
+            let size = s.re[l] * s.re[l] + s.im[l] * s.im[l];
+            change[l] = ((re * re + im * im) / size).sqrt();
+        }
+    }
+}
+
+/// Scales to length one; returns the factor.
+#[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
+#[inline(always)]
+fn normalise(x: &mut [Lanes]) -> [f64; LANES] {
+    let mut sum = [0.0; LANES];
+    for x in x.iter() {
+        let square = x.norm_sqr();
+        for l in 0..LANES {
+            sum[l] += square[l];
+        }
+    }
+    let scale = sum.map(|sum| 1.0 / sum.sqrt());
+    for x in x {
+        for l in 0..LANES {
+            x.re[l] *= scale[l];
+            x.im[l] *= scale[l];
+        }
+    }
+    scale
+}
+
+/// yᵀ x.
+#[allow(clippy::inline_always)]
+#[inline(always)]
+fn dot(y: &[Lanes], x: &[Lanes]) -> Lanes {
+    let mut sum = Lanes::ZERO;
+    for (y, x) in y.iter().zip(x) {
+        sum.add_product(y, x);
+    }
+    sum
+}

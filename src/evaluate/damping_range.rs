@@ -1,0 +1,116 @@
+//! Damping over a range of speeds: where each lateral mode is least damped.
+//!
+//! A vehicle is stable up to a speed if no mode's damping ratio falls below zero on the way. The
+//! minima of the damping ratios over the speed change smoothly with the design, also where an
+//! instability is born at some speed within the range, at which the critical speed jumps.
+
+use super::{
+    branches::{Branches, Known, Search, Sought, minimum},
+    mode::{damping_ratio, frequency},
+};
+use crate::dynamics::{EigenError, LateralModel, Poles};
+
+/// Where in the range a minimum lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// At the highest speed.
+    Top,
+    /// Inside the range.
+    Inside,
+    /// At the lowest speed.
+    Bottom,
+}
+
+/// A least damping ratio of one mode.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DampingMinimum {
+    /// Where.
+    pub place: Place,
+    /// V, m/s.
+    pub speed: f64,
+    /// |s|/2π, Hz.
+    pub frequency: f64,
+    /// ζ.
+    pub damping_ratio: f64,
+}
+
+/// Damping over a range of speeds.
+#[derive(Debug, Clone)]
+pub struct DampingRange {
+    /// Minima, in no particular order; never empty unless nothing oscillates.
+    pub minima: Vec<DampingMinimum>,
+    /// Whether a motion without oscillation grows at some speed.
+    pub diverges: bool,
+}
+
+impl DampingRange {
+    /// Looks through `range`, m/s, for minima with damping ratios `below` a value; the least at
+    /// each end is always among them. By full spectra.
+    ///
+    /// # Errors
+    ///
+    /// [`EigenError`] if eigenvalues cannot be had.
+    pub fn new(model: &LateralModel, range: [f64; 2], below: f64) -> Result<Self, EigenError> {
+        Self::by_spectra(model, range, below)
+    }
+
+    /// By following the modes from the poles at some speed: much quicker than
+    /// [`DampingRange::new`], but a minimum whose mode turns twice between two of its speeds is
+    /// passed over. `None` where the modes cannot be followed.
+    pub fn followed(
+        model: &LateralModel,
+        poles: &Poles,
+        range: [f64; 2],
+        below: f64,
+    ) -> Option<Self> {
+        let [low, high] = range;
+        let mut branches = Branches::new(model, poles)?;
+        branches.move_to(poles.speed.clamp(low, high))?;
+        let wants =
+            |sought, a: &Known, b: &Known| sought == Sought::Minimum && minimum(a, b, below);
+        let mut search = Search {
+            wants: &wants,
+            events: Vec::new(),
+        };
+        let bottom = branches.walk(low, &mut search, |_, _| false)?;
+        let top = branches.walk(high, &mut search, |_, _| false)?;
+        let mut minima = Vec::new();
+        for (place, modes) in [(Place::Bottom, bottom), (Place::Top, top)] {
+            let mut ends: Vec<DampingMinimum> = modes
+                .iter()
+                .map(|known| DampingMinimum::new(place, known))
+                .collect();
+            ends.sort_by(|a, b| a.damping_ratio.total_cmp(&b.damping_ratio));
+            let among = ends.iter().filter(|m| m.damping_ratio < below).count();
+            ends.truncate(among.max(1));
+            minima.extend(ends);
+        }
+        let inside = search.events.iter();
+        minima.extend(
+            inside
+                .map(|event| DampingMinimum::new(Place::Inside, &event.at))
+                .filter(|minimum| minimum.damping_ratio < below),
+        );
+        Some(Self {
+            minima,
+            diverges: false,
+        })
+    }
+
+    /// The least damping ratio in the range.
+    pub fn least(&self) -> Option<DampingMinimum> {
+        let minima = self.minima.iter().copied();
+        minima.min_by(|a, b| a.damping_ratio.total_cmp(&b.damping_ratio))
+    }
+}
+
+impl DampingMinimum {
+    fn new(place: Place, known: &Known) -> Self {
+        Self {
+            place,
+            speed: known.speed,
+            frequency: frequency(known.s),
+            damping_ratio: damping_ratio(known.s),
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! Panels of integration over frequency, laid where the response calls for them.
+//!
+//! The error of a Gauss rule on a panel falls with the size of the ellipse around it, foci at its
+//! ends, within which the integrand has no pole (Davis, Rabinowitz: *Methods of Numerical
+//! Integration*, 1984, section 4.6). The poles are known: the vehicle's, and the corners of the
+//! track's spectra. Each panel is made as wide as they allow.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::Complex;
+
+use crate::{
+    case::Case,
+    dynamics::{ForcedModel, Poles},
+};
+
+/// Sum of the distances of a pole from the two ends of a panel, at least, over its width. For the
+/// 15-point rule it leaves an error of about 1e-8.
+const CLEARANCE: f64 = 1.3;
+/// Ratio of the ends of a panel.
+const RATIO: f64 = 2.5;
+/// Phase between first and last wheelset over half a panel, rad.
+const PHASE: f64 = 7.0;
+/// A rest of the range as short as this goes to the last panel.
+const REST: f64 = 1e-3;
+
+/// Edges of the panels in Hz, ascending, from one end of the case's band of frequencies to the
+/// other.
+pub fn panels(model: &ForcedModel, case: &Case, poles: &Poles) -> Vec<f64> {
+    let [low, high] = case.model.frequency_band;
+    let speed = case.service.speed;
+    // In complex frequency: s = 2πi z.
+    let own = poles.values.iter().filter(|s| s.im >= 0.0);
+    let mut poles: Vec<Complex<f64>> = own.map(|s| Complex::new(s.im, s.re.abs()) / TAU).collect();
+    let mut kinks = vec![high];
+    for excitation in &model.excitations {
+        let spectrum = case.service.track.spectrum(excitation.irregularity);
+        let hertz = |wavenumber: f64| wavenumber * speed / TAU;
+        poles.extend(spectrum.corners().map(|w| Complex::new(0.0, hertz(w))));
+        kinks.extend(spectrum.kinks().map(hertz));
+    }
+    kinks.retain(|f| (low * (1.0 + REST)..=high).contains(f));
+    kinks.sort_by(f64::total_cmp);
+    let lag = (model.lags[3] - model.lags[0]) / speed;
+    let mut edges = vec![low];
+    let mut at = low;
+    for kink in kinks {
+        while at < kink {
+            let mut next = (at * RATIO).min(at + PHASE / (PI * lag));
+            for z in &poles {
+                let to = z - at;
+                let width = 2.0 * (CLEARANCE * to.norm() - to.re) / (CLEARANCE * CLEARANCE - 1.0);
+                next = next.min(at + width);
+            }
+            // Undamped poles on the axis would stop the walk; the integration then tells.
+            next = next.max(at * (1.0 + REST));
+            if next > kink * (1.0 - REST) {
+                next = kink;
+            }
+            edges.push(next);
+            at = next;
+        }
+    }
+    edges
+}

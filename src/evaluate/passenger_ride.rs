@@ -1,0 +1,167 @@
+//! What passengers feel: comfort indices and one-third-octave bands (3.3.4).
+
+use super::{
+    integration::{Integrals, integrate},
+    panels::panels,
+    response::Response,
+    ride::TOLERANCE,
+};
+use crate::{
+    case::Case,
+    comfort::{iso_boundary, sperling, third_octave, weighting},
+    dynamics::{ForcedModel, LateralModel, Poles, VerticalModel},
+};
+
+/// What one passenger point feels in one direction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PassengerRide {
+    /// RMS acceleration, m/s².
+    pub acceleration: f64,
+    /// Frequency-weighted RMS after ISO 2631-1 (W_d lateral, W_k vertical), m/s².
+    pub iso_weighted: f64,
+    /// Frequency-weighted RMS after EN 12299 (W_d lateral, W_b vertical), m/s².
+    pub en_weighted: f64,
+    /// Sperling's W_z.
+    pub w_z: f64,
+    /// RMS acceleration by one-third-octave band.
+    pub bands: Vec<BandRide>,
+}
+
+/// RMS acceleration in a one-third-octave band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BandRide {
+    /// Exact band centre, Hz.
+    pub centre: f64,
+    /// RMS acceleration, m/s².
+    pub acceleration: f64,
+    /// ISO 2631 one-hour reduced comfort boundary, m/s²; none below 1 Hz.
+    pub boundary: Option<f64>,
+}
+
+impl PassengerRide {
+    /// Largest ratio of a band's RMS acceleration to the ISO boundary, with its centre in Hz.
+    pub fn boundary_ratio(&self) -> Option<(f64, f64)> {
+        self.bands
+            .iter()
+            .filter_map(|band| Some((band.acceleration / band.boundary?, band.centre)))
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+}
+
+impl PassengerRide {
+    /// At c.g., front and rear, laterally. `None` if an integral did not meet its tolerance.
+    pub fn lateral(model: &LateralModel, case: &Case, poles: &Poles) -> Option<[Self; 3]> {
+        Spectra::new(&model.forced, case, poles, Direction::Lateral).passengers()
+    }
+
+    /// At c.g., front and rear, vertically.
+    pub fn vertical(model: &VerticalModel, case: &Case, poles: &Poles) -> Option<[Self; 3]> {
+        Spectra::new(&model.forced, case, poles, Direction::Vertical).passengers()
+    }
+}
+
+/// Direction of the acceleration, which decides the comfort measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Direction {
+    Lateral,
+    Vertical,
+}
+
+impl Direction {
+    /// Squared weights on the acceleration spectrum: ISO 2631-1, EN 12299, Sperling.
+    fn weights(self, f: f64) -> [f64; 3] {
+        let [iso, en, sperling] = match self {
+            Self::Lateral => [
+                weighting::w_d(f),
+                weighting::w_d(f),
+                sperling::horizontal(f),
+            ],
+            Self::Vertical => [weighting::w_k(f), weighting::w_b(f), sperling::vertical(f)],
+        };
+        [iso * iso, en * en, sperling * sperling]
+    }
+
+    fn boundary(self, f: f64) -> Option<f64> {
+        match self {
+            Self::Lateral => iso_boundary::lateral(f),
+            Self::Vertical => iso_boundary::vertical(f),
+        }
+    }
+}
+
+/// Mean squares of the three accelerations as they are and with three weights, between edges: those
+/// of the one-third-octave bands, and others that resolve the response.
+struct Spectra {
+    integrals: Integrals,
+    edges: Vec<f64>,
+    bands: Vec<f64>,
+    direction: Direction,
+}
+
+impl Spectra {
+    fn new(model: &ForcedModel, case: &Case, poles: &Poles, direction: Direction) -> Self {
+        let [low, high] = case.model.frequency_band;
+        let bands = third_octave::edges_between(low, high);
+        let mut edges = panels(model, case, poles);
+        edges.extend(&bands);
+        edges.sort_by(f64::total_cmp);
+        edges.dedup();
+        let accelerations = Response::of(model, &case.service.track, case.service.speed, 0..3);
+        let mut response = accelerations;
+        let integrals = integrate(&edges, 12, TOLERANCE, |f, values| {
+            let (densities, weighted) = values.split_at_mut(3);
+            response.densities(f, densities);
+            let weights = f.map(|f| direction.weights(f));
+            for point in 0..3 {
+                for k in 0..3 {
+                    for (l, weights) in weights.iter().enumerate() {
+                        weighted[3 * point + k][l] = densities[point][l] * weights[k];
+                    }
+                }
+            }
+        });
+        Self {
+            integrals,
+            edges,
+            bands,
+            direction,
+        }
+    }
+
+    fn passengers(&self) -> Option<[PassengerRide; 3]> {
+        self.integrals.converged.then(|| {
+            std::array::from_fn(|point| {
+                let weighted = |k: usize| self.integrals.total(3 + 3 * point + k);
+                PassengerRide {
+                    acceleration: self.integrals.total(point).sqrt(),
+                    iso_weighted: weighted(0).sqrt(),
+                    en_weighted: weighted(1).sqrt(),
+                    w_z: sperling::w_z(weighted(2)),
+                    bands: self.bands(point),
+                }
+            })
+        })
+    }
+
+    /// The bands that lie wholly within the range of integration.
+    fn bands(&self, point: usize) -> Vec<BandRide> {
+        let between = |low: f64, high: f64| -> f64 {
+            let panels = self.edges.windows(2).enumerate();
+            panels
+                .filter(|(_, ends)| ends[0] >= low && ends[1] <= high)
+                .map(|(panel, _)| self.integrals.band(panel, point))
+                .sum()
+        };
+        self.bands
+            .windows(2)
+            .filter_map(|edges| {
+                let centre = third_octave::centre_of(edges[0], edges[1])?;
+                Some(BandRide {
+                    centre,
+                    acceleration: between(edges[0], edges[1]).sqrt(),
+                    boundary: self.direction.boundary(centre),
+                })
+            })
+            .collect()
+    }
+}

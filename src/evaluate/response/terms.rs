@@ -1,0 +1,122 @@
+//! Forces and outputs of an excitation, gathered term by term.
+
+use std::ops::Range;
+
+use crate::dynamics::{
+    Excitation, ForcedModel, LinearSystem, Row,
+    elimination::{LANES, Lanes},
+};
+
+/// −(K_u + iω C_u) per unit of irregularity at one wheelset, on one coordinate.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Force {
+    pub coordinate: usize,
+    pub wheelset: usize,
+    pub k: f64,
+    pub c: f64,
+}
+
+/// All of an excitation's at a speed, m/s.
+pub(super) fn forces(system: &LinearSystem, excitation: &Excitation, speed: f64) -> Vec<Force> {
+    let [c0, c1, c2] = &system.damping;
+    let mut forces = Vec::new();
+    for coordinate in 0..system.order() {
+        for (wheelset, &j) in excitation.inputs.iter().enumerate() {
+            let at = (coordinate, j);
+            let k = -excitation.scale * system.stiffness[at];
+            let c = -excitation.scale * (c0[at] + c1[at] / speed + c2[at] * speed);
+            if k != 0.0 || c != 0.0 {
+                forces.push(Force {
+                    coordinate,
+                    wheelset,
+                    k,
+                    c,
+                });
+            }
+        }
+    }
+    forces
+}
+
+/// Where a term of an output comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Source {
+    /// A coordinate.
+    Coordinate(usize),
+    /// The irregularity at a wheelset.
+    Wheelset(usize),
+}
+
+/// An output in terms of one excitation's response.
+#[derive(Debug, Clone, Default)]
+pub(super) struct OutputTerms {
+    displacement: Vec<(Source, f64)>,
+    velocity: Vec<(Source, f64)>,
+    acceleration: Vec<(Source, f64)>,
+}
+
+/// Some outputs of a model.
+pub(super) fn outputs(
+    model: &ForcedModel,
+    excitation: &Excitation,
+    range: Range<usize>,
+) -> Vec<OutputTerms> {
+    let n = model.system.order();
+    let terms = |row: &Row| {
+        let mut terms: Vec<(Source, f64)> = Vec::new();
+        for &(i, c) in row.terms() {
+            let (source, c) = if i < n {
+                (Source::Coordinate(i), c)
+            } else {
+                let Some(wheelset) = excitation.inputs.iter().position(|&j| j == i) else {
+                    continue;
+                };
+                (Source::Wheelset(wheelset), c * excitation.scale)
+            };
+            match terms.iter_mut().find(|(s, _)| *s == source) {
+                Some((_, sum)) => *sum += c,
+                None => terms.push((source, c)),
+            }
+        }
+        terms
+    };
+    let outputs = model.outputs[range].iter();
+    outputs
+        .map(|output| OutputTerms {
+            displacement: terms(&output.displacement),
+            velocity: terms(&output.velocity),
+            acceleration: terms(&output.acceleration),
+        })
+        .collect()
+}
+
+#[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
+impl OutputTerms {
+    /// p·x + iω v·x − ω² a·x.
+    #[inline(always)]
+    pub fn transfer<'x>(&self, omega: &[f64; LANES], value: impl Fn(Source) -> &'x Lanes) -> Lanes {
+        let sum = |terms: &[(Source, f64)]| {
+            let mut sum = Lanes::ZERO;
+            for &(source, c) in terms {
+                sum.add_scaled(c, value(source));
+            }
+            sum
+        };
+        let mut transfer = sum(&self.displacement);
+        if !self.velocity.is_empty() {
+            let v = sum(&self.velocity);
+            for l in 0..LANES {
+                transfer.re[l] -= omega[l] * v.im[l];
+                transfer.im[l] += omega[l] * v.re[l];
+            }
+        }
+        if !self.acceleration.is_empty() {
+            let a = sum(&self.acceleration);
+            for l in 0..LANES {
+                transfer.re[l] -= omega[l] * omega[l] * a.re[l];
+                transfer.im[l] -= omega[l] * omega[l] * a.im[l];
+            }
+        }
+        transfer
+    }
+}
