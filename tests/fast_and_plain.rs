@@ -45,8 +45,8 @@ fn onsets_are_those_of_full_spectra() {
         assert_eq!(fast.unstable_at_start, plain.unstable_at_start, "{name}");
         compared += 1;
         match (fast.critical_speed(), plain.critical_speed()) {
-            // Of two modes that lose their damping nearly together one may not be followed: that
-            // nothing grows is certified for speeds 1e-4 lower.
+            // Onsets have been seen to differ by 5e-7, for a reason not known yet. That nothing
+            // grows is certified for speeds 1e-4 lower.
             (Some(fast), Some(plain)) => {
                 assert_ratio(&name, fast, plain, 1e-4);
                 exact += usize::from((fast / plain - 1.0).abs() < 1e-9);

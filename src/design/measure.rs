@@ -68,6 +68,7 @@ struct Models<'a> {
     case: &'a Case,
     lateral: Option<LateralModel>,
     poles: Option<Poles>,
+    vertical: Option<(VerticalModel, Poles)>,
     lateral_ride: Option<LateralRide>,
     vertical_ride: Option<VerticalRide>,
     modes: Option<LateralModes>,
@@ -81,6 +82,7 @@ impl<'a> Models<'a> {
             case,
             lateral: None,
             poles: None,
+            vertical: None,
             lateral_ride: None,
             vertical_ride: None,
             modes: None,
@@ -117,6 +119,17 @@ impl<'a> Models<'a> {
         }
         let poles = self.poles.as_ref().ok_or(Failure::Eigenvalues)?;
         Ok((model, poles))
+    }
+
+    /// The vertical model and its poles.
+    fn vertical(&mut self) -> Result<&(VerticalModel, Poles), Failure> {
+        if self.vertical.is_none() {
+            let model = VerticalModel::new(self.case);
+            let poles = Poles::at(&model.forced.system, self.case.service.speed)
+                .map_err(|_| Failure::Eigenvalues)?;
+            self.vertical = Some((model, poles));
+        }
+        self.vertical.as_ref().ok_or(Failure::Eigenvalues)
     }
 
     fn damping_to(&mut self, speed: f64, below: f64) -> Result<Vec<Piece>, Failure> {
@@ -270,22 +283,16 @@ impl<'a> Models<'a> {
 
     fn lateral_ride(&mut self, index: Index) -> Result<Vec<Piece>, Failure> {
         let case = self.case;
+        let failed = |reason| no_ride(reason, Failure::Unstable);
         if index == Index::LateralIsoRatio {
             let (model, poles) = self.with_poles()?;
-            if !poles.stable() {
-                return Err(Failure::Unstable);
-            }
             let passengers = PassengerRide::lateral(model, case, poles);
-            return passengers.map_or(Err(Failure::Integration), |p| Ok(iso_ratios(&p)));
+            return passengers.map(|p| iso_ratios(&p)).map_err(failed);
         }
         if self.lateral_ride.is_none() {
             let (model, poles) = self.with_poles()?;
             let ride = LateralRide::from_poles(model, case, poles);
-            self.lateral_ride = Some(ride.map_err(|reason| match reason {
-                NoRide::Unstable => Failure::Unstable,
-                NoRide::NotConverged => Failure::Integration,
-                NoRide::Poles(_) => Failure::Eigenvalues,
-            })?);
+            self.lateral_ride = Some(ride.map_err(failed)?);
         }
         let ride = self.lateral_ride.as_ref().ok_or(Failure::Integration)?;
         Ok(match index {
@@ -299,19 +306,16 @@ impl<'a> Models<'a> {
 
     fn vertical_ride(&mut self, index: Index) -> Result<Vec<Piece>, Failure> {
         let case = self.case;
-        if self.vertical_ride.is_none() || index == Index::VerticalIsoRatio {
-            let model = VerticalModel::new(case);
-            let poles = Poles::at(&model.forced.system, case.service.speed)
-                .map_err(|_| Failure::Eigenvalues)?;
-            if !poles.stable() {
-                return Err(Failure::Diverging);
-            }
-            if index == Index::VerticalIsoRatio {
-                let passengers = PassengerRide::vertical(&model, case, &poles);
-                return passengers.map_or(Err(Failure::Integration), |p| Ok(iso_ratios(&p)));
-            }
-            let ride = VerticalRide::from_poles(&model, case, &poles);
-            self.vertical_ride = Some(ride.map_err(|_| Failure::Integration)?);
+        let failed = |reason| no_ride(reason, Failure::Diverging);
+        if index == Index::VerticalIsoRatio {
+            let (model, poles) = self.vertical()?;
+            let passengers = PassengerRide::vertical(model, case, poles);
+            return passengers.map(|p| iso_ratios(&p)).map_err(failed);
+        }
+        if self.vertical_ride.is_none() {
+            let (model, poles) = self.vertical()?;
+            let ride = VerticalRide::from_poles(model, case, poles);
+            self.vertical_ride = Some(ride.map_err(failed)?);
         }
         let ride = self.vertical_ride.as_ref().ok_or(Failure::Integration)?;
         Ok(match index {
@@ -338,10 +342,8 @@ impl<'a> Models<'a> {
                     .collect())
             }
             Index::FlexibleModeSeparation => {
-                let model = VerticalModel::new(self.case);
-                let modes = Poles::at(&model.forced.system, self.case.service.speed)
-                    .and_then(|poles| vertical_modes(&model, &poles))
-                    .map_err(|_| Failure::Eigenvalues)?;
+                let (model, poles) = self.vertical()?;
+                let modes = vertical_modes(model, poles).map_err(|_| Failure::Eigenvalues)?;
                 let separations = flexible_separations(&modes);
                 if separations.is_empty() {
                     return Err(Failure::NoMode);
@@ -364,6 +366,15 @@ impl<'a> Models<'a> {
                 Ok(pieces(&[(carbody + 2.0 * frame) * GRAVITY / k]))
             }
         }
+    }
+}
+
+/// `unstable` says what a model without a stationary response does.
+fn no_ride(reason: NoRide, unstable: Failure) -> Failure {
+    match reason {
+        NoRide::Unstable => unstable,
+        NoRide::NotConverged => Failure::Integration,
+        NoRide::Poles(_) => Failure::Eigenvalues,
     }
 }
 

@@ -4,7 +4,7 @@ use super::{
     branches::{Branches, Event, Known, Search, Sought, onset},
     mode::{Mode, frequency},
 };
-use crate::dynamics::{EigenError, LateralModel, Poles, lateral::Body};
+use crate::dynamics::{LateralModel, Poles, lateral::Body};
 
 /// Which body hunts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,15 +73,6 @@ impl Crossing {
 }
 
 impl Stability {
-    /// Searches `range`, m/s, by full spectra.
-    ///
-    /// # Errors
-    ///
-    /// [`EigenError`] if eigenvalues cannot be had.
-    pub fn search(model: &LateralModel, range: [f64; 2]) -> Result<Self, EigenError> {
-        Self::by_spectra(model, range)
-    }
-
     /// By following the modes from the poles at some speed, up to a multiple `reach` of the lowest
     /// onset: much quicker than [`Stability::search`], but an instability that begins and ends
     /// between two of its speeds is passed over. `None` where the modes cannot be followed.
@@ -92,8 +83,7 @@ impl Stability {
         reach: f64,
     ) -> Option<Self> {
         let [low, high] = range;
-        let mut branches = Branches::new(model, poles)?;
-        branches.move_to(poles.speed.clamp(low, high))?;
+        let mut branches = Branches::within(range, model, poles)?;
         let wants = |sought, a: &Known, b: &Known| sought == Sought::Onset && onset(a, b);
         let mut search = Search {
             wants: &wants,

@@ -8,7 +8,7 @@ use super::{
     branches::{Branches, Known, Search, Sought, minimum},
     mode::{damping_ratio, frequency},
 };
-use crate::dynamics::{EigenError, LateralModel, Poles};
+use crate::dynamics::{LateralModel, Poles};
 
 /// Where in the range a minimum lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,16 +44,6 @@ pub struct DampingRange {
 }
 
 impl DampingRange {
-    /// Looks through `range`, m/s, for minima with damping ratios `below` a value; the least at
-    /// each end is always among them. By full spectra.
-    ///
-    /// # Errors
-    ///
-    /// [`EigenError`] if eigenvalues cannot be had.
-    pub fn new(model: &LateralModel, range: [f64; 2], below: f64) -> Result<Self, EigenError> {
-        Self::by_spectra(model, range, below)
-    }
-
     /// By following the modes from the poles at some speed: much quicker than
     /// [`DampingRange::new`], but a minimum whose mode turns twice between two of its speeds is
     /// passed over. `None` where the modes cannot be followed.
@@ -64,8 +54,7 @@ impl DampingRange {
         below: f64,
     ) -> Option<Self> {
         let [low, high] = range;
-        let mut branches = Branches::new(model, poles)?;
-        branches.move_to(poles.speed.clamp(low, high))?;
+        let mut branches = Branches::within(range, model, poles)?;
         let wants =
             |sought, a: &Known, b: &Known| sought == Sought::Minimum && minimum(a, b, below);
         let mut search = Search {

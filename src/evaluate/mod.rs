@@ -67,21 +67,13 @@ impl Evaluation {
         let vertical_poles = Poles::at(&vertical.forced.system, speed)?;
         let modes = LateralModes::new(&lateral, &lateral_poles, band)?;
         let vertical_modes = vertical_modes::vertical_modes(&vertical, &vertical_poles)?;
-        let ride = LateralRide::from_poles(&lateral, case, &lateral_poles);
-        let bounce = VerticalRide::from_poles(&vertical, case, &vertical_poles);
         Ok(Self {
             stability: Stability::search(&lateral, case.model.speed_range)?,
             curving: CurvingLimits::new(case, 0.0),
-            lateral_passengers: ride
-                .is_ok()
-                .then(|| PassengerRide::lateral(&lateral, case, &lateral_poles))
-                .flatten(),
-            lateral: ride,
-            vertical_passengers: bounce
-                .is_ok()
-                .then(|| PassengerRide::vertical(&vertical, case, &vertical_poles))
-                .flatten(),
-            vertical: bounce,
+            lateral: LateralRide::from_poles(&lateral, case, &lateral_poles),
+            lateral_passengers: PassengerRide::lateral(&lateral, case, &lateral_poles).ok(),
+            vertical: VerticalRide::from_poles(&vertical, case, &vertical_poles),
+            vertical_passengers: PassengerRide::vertical(&vertical, case, &vertical_poles).ok(),
             modes,
             vertical_modes,
         })

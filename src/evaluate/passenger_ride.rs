@@ -1,10 +1,10 @@
 //! What passengers feel: comfort indices and one-third-octave bands (3.3.4).
 
 use super::{
-    integration::{Integrals, integrate},
+    integration::Integrals,
     panels::panels,
     response::Response,
-    ride::TOLERANCE,
+    ride::{NoRide, mean_squares, stationary},
 };
 use crate::{
     case::Case,
@@ -46,17 +46,27 @@ impl PassengerRide {
             .filter_map(|band| Some((band.acceleration / band.boundary?, band.centre)))
             .max_by(|a, b| a.0.total_cmp(&b.0))
     }
-}
 
-impl PassengerRide {
-    /// At c.g., front and rear, laterally. `None` if an integral did not meet its tolerance.
-    pub fn lateral(model: &LateralModel, case: &Case, poles: &Poles) -> Option<[Self; 3]> {
-        Spectra::new(&model.forced, case, poles, Direction::Lateral).passengers()
+    /// At c.g., front and rear, laterally.
+    ///
+    /// # Errors
+    ///
+    /// [`NoRide`] where there is none.
+    pub fn lateral(model: &LateralModel, case: &Case, poles: &Poles) -> Result<[Self; 3], NoRide> {
+        Spectra::new(&model.forced, case, poles, Direction::Lateral).map(|s| s.passengers())
     }
 
     /// At c.g., front and rear, vertically.
-    pub fn vertical(model: &VerticalModel, case: &Case, poles: &Poles) -> Option<[Self; 3]> {
-        Spectra::new(&model.forced, case, poles, Direction::Vertical).passengers()
+    ///
+    /// # Errors
+    ///
+    /// [`NoRide`] where there is none.
+    pub fn vertical(
+        model: &VerticalModel,
+        case: &Case,
+        poles: &Poles,
+    ) -> Result<[Self; 3], NoRide> {
+        Spectra::new(&model.forced, case, poles, Direction::Vertical).map(|s| s.passengers())
     }
 }
 
@@ -99,7 +109,13 @@ struct Spectra {
 }
 
 impl Spectra {
-    fn new(model: &ForcedModel, case: &Case, poles: &Poles, direction: Direction) -> Self {
+    fn new(
+        model: &ForcedModel,
+        case: &Case,
+        poles: &Poles,
+        direction: Direction,
+    ) -> Result<Self, NoRide> {
+        stationary(poles)?;
         let [low, high] = case.model.frequency_band;
         let bands = third_octave::edges_between(low, high);
         let mut edges = panels(model, case, poles);
@@ -107,10 +123,8 @@ impl Spectra {
         edges.sort_by(f64::total_cmp);
         edges.dedup();
         let accelerations = Response::of(model, &case.service.track, case.service.speed, 0..3);
-        let mut response = accelerations;
-        let integrals = integrate(&edges, 12, TOLERANCE, |f, values| {
+        let integrals = mean_squares(accelerations, &edges, 12, |f, values| {
             let (densities, weighted) = values.split_at_mut(3);
-            response.densities(f, densities);
             let weights = f.map(|f| direction.weights(f));
             for point in 0..3 {
                 for k in 0..3 {
@@ -119,27 +133,25 @@ impl Spectra {
                     }
                 }
             }
-        });
-        Self {
+        })?;
+        Ok(Self {
             integrals,
             edges,
             bands,
             direction,
-        }
+        })
     }
 
-    fn passengers(&self) -> Option<[PassengerRide; 3]> {
-        self.integrals.converged.then(|| {
-            std::array::from_fn(|point| {
-                let weighted = |k: usize| self.integrals.total(3 + 3 * point + k);
-                PassengerRide {
-                    acceleration: self.integrals.total(point).sqrt(),
-                    iso_weighted: weighted(0).sqrt(),
-                    en_weighted: weighted(1).sqrt(),
-                    w_z: sperling::w_z(weighted(2)),
-                    bands: self.bands(point),
-                }
-            })
+    fn passengers(&self) -> [PassengerRide; 3] {
+        std::array::from_fn(|point| {
+            let weighted = |k: usize| self.integrals.total(3 + 3 * point + k);
+            PassengerRide {
+                acceleration: self.integrals.total(point).sqrt(),
+                iso_weighted: weighted(0).sqrt(),
+                en_weighted: weighted(1).sqrt(),
+                w_z: sperling::w_z(weighted(2)),
+                bands: self.bands(point),
+            }
         })
     }
 

@@ -1,14 +1,21 @@
 //! Ride on irregular track: RMS accelerations and strokes (3.2.1).
 
-use super::{integration::integrate, panels::panels, response::Response};
+use super::{
+    integration::{Integrals, integrate},
+    panels::panels,
+    response::Response,
+};
 use crate::{
     case::Case,
-    dynamics::{EigenError, ForcedModel, LateralModel, Poles, VerticalModel, lateral, vertical},
+    dynamics::{
+        EigenError, ForcedModel, LateralModel, Poles, VerticalModel, elimination::LANES, lateral,
+        vertical,
+    },
 };
 
 /// Accuracy of mean squares: estimated error over value. Halved, RMS values change by less than
 /// 1e-6.
-pub(super) const TOLERANCE: f64 = 1e-6;
+const TOLERANCE: f64 = 1e-6;
 
 /// Why there is no stationary response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -61,20 +68,37 @@ pub fn average(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// RMS values of all outputs of a model.
-fn rms(model: &ForcedModel, case: &Case, poles: &Poles) -> Result<Vec<f64>, NoRide> {
-    if !poles.stable() {
-        return Err(NoRide::Unstable);
-    }
-    let outputs = model.outputs.len();
-    let mut response = Response::new(model, &case.service.track, case.service.speed);
-    let edges = panels(model, case, poles);
-    let integrals = integrate(&edges, outputs, TOLERANCE, |f, densities| {
-        response.densities(f, densities);
+/// Whether there is a stationary response.
+pub(super) fn stationary(poles: &Poles) -> Result<(), NoRide> {
+    poles.stable().then_some(()).ok_or(NoRide::Unstable)
+}
+
+/// Integrals over panels between `edges`, Hz, of the densities of a response and of what `more`
+/// makes of them, `functions` in all.
+pub(super) fn mean_squares(
+    mut response: Response<'_>,
+    edges: &[f64],
+    functions: usize,
+    more: impl Fn(&[f64; LANES], &mut [[f64; LANES]]),
+) -> Result<Integrals, NoRide> {
+    let outputs = response.outputs();
+    let integrals = integrate(edges, functions, TOLERANCE, |f, values| {
+        response.densities(f, &mut values[..outputs]);
+        more(f, values);
     });
     if !integrals.converged {
         return Err(NoRide::NotConverged);
     }
+    Ok(integrals)
+}
+
+/// RMS values of all outputs of a model.
+fn rms(model: &ForcedModel, case: &Case, poles: &Poles) -> Result<Vec<f64>, NoRide> {
+    stationary(poles)?;
+    let outputs = model.outputs.len();
+    let response = Response::new(model, &case.service.track, case.service.speed);
+    let edges = panels(model, case, poles);
+    let integrals = mean_squares(response, &edges, outputs, |_, _| ())?;
     Ok((0..outputs).map(|k| integrals.total(k).sqrt()).collect())
 }
 

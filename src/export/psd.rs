@@ -6,8 +6,7 @@ use super::{evaluation_text::title, number::significant, sheet::Sheet, table::Ta
 use crate::{
     case::Case,
     dynamics::{
-        ForcedModel, LateralModel, VerticalModel, eigenvalues, elimination::LANES, lateral,
-        vertical,
+        ForcedModel, LateralModel, Poles, VerticalModel, elimination::LANES, lateral, vertical,
     },
     evaluate::response::Response,
 };
@@ -95,8 +94,8 @@ impl Spectra {
             .map(|i| low * (step * i as f64).exp())
             .collect();
         let model = LateralModel::new(case);
-        let stable = eigenvalues(model.forced.system.state_matrix(case.service.speed))
-            .is_ok_and(|values| values.iter().all(|s| s.re < 0.0));
+        let poles = Poles::at(&model.forced.system, case.service.speed);
+        let stable = poles.is_ok_and(|poles| poles.stable());
         let lateral = stable.then(|| columns(&model.forced, case, &frequency, &LATERAL));
         let vertical = columns(
             &VerticalModel::new(case).forced,

@@ -9,5 +9,4 @@ mod pattern;
 mod stiffness;
 
 pub use lanes::{LANES, Lanes};
-pub use pattern::Pattern;
 pub use stiffness::{Factors, Stiffness};

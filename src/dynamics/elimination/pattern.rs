@@ -141,15 +141,6 @@ impl Pattern {
         self.slots[i * self.order + j].map(usize::from)
     }
 
-    /// Multiplications and additions of complex numbers in one factorisation, and in one solution.
-    pub fn operations(&self) -> [usize; 2] {
-        let triangles = self.lower.len() + self.upper.len();
-        [
-            self.updates.len() + self.lower.len(),
-            triangles + self.order,
-        ]
-    }
-
     /// Factors L U in place, the inverse pivots on the diagonal. `diagonal` gets the squares of the
     /// diagonal before. Returns false in lanes where a pivot has lost digits against it.
     #[inline(always)]

@@ -41,9 +41,8 @@ const HALVINGS: usize = 40;
 /// The cubic and the mode found must agree to this share.
 const AGREE: f64 = 0.2;
 
-/// Events are the same if their speeds are this close, relative, and their vectors this much alike.
+/// Events are the same if their speeds are this close, relative, and their vectors alike.
 const SAME: f64 = 1e-6;
-const ALIKE: f64 = 0.98;
 
 /// dζ/d ln V.
 pub fn damping_slope(known: &Known) -> f64 {
@@ -202,7 +201,7 @@ fn apart(pairs: &Pairs, brackets: &[Bracket]) -> bool {
             let same = (pairs.speed[i] / pairs.speed[j] - 1.0).abs() < SAME;
             !(brackets[i].sought == brackets[j].sought
                 && same
-                && Pairs::alignment((pairs, i), (pairs, j)) > ALIKE)
+                && Pairs::alike((pairs, i), (pairs, j)))
         })
     })
 }

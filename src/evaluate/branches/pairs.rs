@@ -66,13 +66,11 @@ impl Pairs {
         self.speed[to] = others.speed[from];
     }
 
-    /// |x̄ᵀ x′| of two pairs.
-    pub fn alignment((a, i): (&Self, usize), (b, j): (&Self, usize)) -> f64 {
+    /// Whether the right vectors of two pairs, of length one, are nearly the same.
+    pub fn alike((a, i): (&Self, usize), (b, j): (&Self, usize)) -> bool {
         let products = a.x.iter().zip(&b.x);
-        products
-            .map(|(a, b)| a.lane(i).conj() * b.lane(j))
-            .sum::<Complex<f64>>()
-            .norm()
+        let product: Complex<f64> = products.map(|(a, b)| a.lane(i).conj() * b.lane(j)).sum();
+        product.norm() > ALIKE
     }
 
     /// The mode in lane `l`.
@@ -97,6 +95,8 @@ pub struct Refiner {
 /// Relative change of s below which the next step would change nothing: its error falls with the
 /// cube of the one before.
 pub(super) const SETTLED: f64 = 1e-6;
+/// |x̄ᵀ x′| above which two vectors of length one are nearly the same.
+const ALIKE: f64 = 0.98;
 /// Steps allowed.
 const STEPS: usize = 6;
 

@@ -39,9 +39,8 @@ const LOOSE: f64 = 3e-3;
 /// How often a step may be halved.
 const HALVINGS: usize = 12;
 /// Eigenvalues this close, as a share of their size, may be the same one found twice, and are if
-/// their vectors are as much alike as this.
+/// their vectors are alike.
 const CLOSE: f64 = 1e-2;
-const ALIKE: f64 = 0.98;
 /// Damping ratios between which the modes are counted.
 const COUNTED: [f64; 2] = [0.05, 0.15];
 
@@ -98,7 +97,7 @@ impl State {
         let before = self.living().take_while(|&b| b < branch);
         before
             .filter(|&b| (self.known(b).s - s).norm_sqr() < (CLOSE * s.norm()).powi(2))
-            .any(|b| Pairs::alignment(lane(b), lane(branch)) > ALIKE)
+            .any(|b| Pairs::alike(lane(b), lane(branch)))
     }
 }
 
@@ -118,7 +117,7 @@ pub struct Search<'f> {
 
 impl Branches {
     /// From the poles at some speed. `None` if they cannot be told apart.
-    pub fn new(model: &LateralModel, poles: &Poles) -> Option<Self> {
+    fn new(model: &LateralModel, poles: &Poles) -> Option<Self> {
         let speed = poles.speed;
         let mut refiner = Refiner::new(&model.forced.system);
         let mut followed: Vec<Complex<f64>> = poles
@@ -154,8 +153,15 @@ impl Branches {
         })
     }
 
+    /// From the poles at some speed, to be followed within a range of speeds, m/s.
+    pub fn within(range: [f64; 2], model: &LateralModel, poles: &Poles) -> Option<Self> {
+        let mut branches = Self::new(model, poles)?;
+        branches.move_to(poles.speed.clamp(range[0], range[1]))?;
+        Some(branches)
+    }
+
     /// Moves the start to another speed.
-    pub fn move_to(&mut self, speed: f64) -> Option<()> {
+    fn move_to(&mut self, speed: f64) -> Option<()> {
         let nothing = |_, _: &Known, _: &Known| false;
         let mut search = Search {
             wants: &nothing,

@@ -28,10 +28,12 @@ const DIVISIONS: usize = 12;
 const BISECTIONS: usize = 40;
 
 impl Stability {
-    pub(in crate::evaluate) fn by_spectra(
-        model: &LateralModel,
-        range: [f64; 2],
-    ) -> Result<Self, EigenError> {
+    /// Searches `range`, m/s, by full spectra.
+    ///
+    /// # Errors
+    ///
+    /// [`EigenError`] if eigenvalues cannot be had.
+    pub fn search(model: &LateralModel, range: [f64; 2]) -> Result<Self, EigenError> {
         let ratio = range[1] / range[0];
         let speeds: Vec<f64> = (0..GRID)
             .map(|k| range[0] * ratio.powf(k as f64 / (GRID - 1) as f64))
@@ -114,12 +116,8 @@ impl Stability {
         triple: &[Spectrum],
     ) -> Result<(), EigenError> {
         let [a, b, c] = triple else { return Ok(()) };
-        let before = a.follow(b);
-        for (middle, after) in b.follow(c) {
-            let Some((first, _)) = before.iter().find(|(_, s)| *s == middle) else {
-                continue;
-            };
-            let known = [(a.speed, *first), (b.speed, middle), (c.speed, after)];
+        for [first, middle, last] in a.through(b, c) {
+            let known = [(a.speed, first), (b.speed, middle), (c.speed, last)];
             let [za, zb, zc] = known.map(|(_, s)| damping_ratio(s));
             if zb > 0.0 && zb <= za && zb <= zc && dip(known) < MARGIN {
                 let minimum = refine(model, known)?;

@@ -40,11 +40,13 @@ impl DampingMinimum {
 }
 
 impl DampingRange {
-    pub(in crate::evaluate) fn by_spectra(
-        model: &LateralModel,
-        range: [f64; 2],
-        below: f64,
-    ) -> Result<Self, EigenError> {
+    /// Looks through `range`, m/s, for minima with damping ratios `below` a value; the least at
+    /// each end is always among them. By full spectra.
+    ///
+    /// # Errors
+    ///
+    /// [`EigenError`] if eigenvalues cannot be had.
+    pub fn new(model: &LateralModel, range: [f64; 2], below: f64) -> Result<Self, EigenError> {
         let [low, high] = range;
         let mut speeds = vec![low];
         let least = (high / low).powf(0.5).min(RATIO);
@@ -106,13 +108,9 @@ impl DampingRange {
         below: f64,
     ) -> Result<(), EigenError> {
         let [a, b, c] = triple else { return Ok(()) };
-        let before = a.follow(b);
-        for (middle, after) in b.follow(c) {
-            let Some((first, _)) = before.iter().find(|(_, s)| *s == middle) else {
-                continue;
-            };
+        for [first, middle, last] in a.through(b, c) {
             // Of modes that nearly coincide the lower counts: which is which depends on the speed.
-            let start = [(a, *first), (b, middle), (c, after)]
+            let start = [(a, first), (b, middle), (c, last)]
                 .map(|(at, s)| (at.speed, least_damped_near(at, s).unwrap_or(s)));
             let [za, zb, zc] = start.map(|(_, s)| damping_ratio(s));
             if zb <= za && zb <= zc && dip(start) < below {

@@ -77,6 +77,18 @@ impl Spectrum {
             .min_by(|a, b| (a - to).norm_sqr().total_cmp(&(b - to).norm_sqr()))
     }
 
+    /// Modes that can be followed from one speed over the next to a third, at all three.
+    pub fn through(&self, next: &Self, last: &Self) -> Vec<[Complex<f64>; 3]> {
+        let before = self.follow(next);
+        let after = next.follow(last).into_iter();
+        after
+            .filter_map(|(middle, last)| {
+                let (first, _) = before.iter().find(|(_, s)| *s == middle)?;
+                Some([*first, middle, last])
+            })
+            .collect()
+    }
+
     /// Pairs every oscillatory mode with where it is at another speed, the closest pairs first.
     pub fn follow(&self, other: &Self) -> Vec<(Complex<f64>, Complex<f64>)> {
         let relevant = |s: &&Complex<f64>| damping_ratio(**s) < OVERDAMPED;

@@ -71,6 +71,11 @@ impl<'a> Response<'a> {
         }
     }
 
+    /// Number of its outputs.
+    pub fn outputs(&self) -> usize {
+        self.outputs.len()
+    }
+
     /// Power spectral densities of the outputs at frequencies `f` in Hz, one-sided, per Hz.
     pub fn densities(&mut self, f: &[f64; LANES], densities: &mut [[f64; LANES]]) {
         let arch = self.arch;
