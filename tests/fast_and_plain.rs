@@ -7,6 +7,7 @@ use bogie::{
     dynamics::{LateralModel, Poles, VerticalModel, elimination::LANES},
     evaluate::{
         critical_speed::Stability,
+        damping_range::DampingRange,
         response::{Response, plain},
     },
 };
@@ -27,38 +28,93 @@ fn vehicles(seed: u64, count: usize) -> Vec<(String, Case)> {
         .collect()
 }
 
-/// Poles at a speed near usual critical speeds.
-fn poles(model: &LateralModel) -> Poles {
-    Poles::at(&model.forced.system, 180.0 * MPH).unwrap()
+/// Poles at the speed of operation.
+fn poles(model: &LateralModel, case: &Case) -> Poles {
+    Poles::at(&model.forced.system, case.service.speed).unwrap()
 }
 
+/// Where the modes can be followed, the critical speed is that of full spectra. Where they cannot,
+/// nothing is returned: rarely near the prototype, at times far from it.
 #[test]
-fn onsets_are_those_of_full_spectra() {
-    let (mut compared, mut exact) = (0, 0);
-    for (name, case) in vehicles(21, 120) {
-        let model = LateralModel::new(&case);
-        let range = case.model.speed_range;
-        let Some(fast) = Stability::followed(&model, &poles(&model), range, f64::INFINITY) else {
-            continue;
-        };
-        let plain = Stability::search(&model, range).unwrap();
-        assert_eq!(fast.unstable_at_start, plain.unstable_at_start, "{name}");
-        compared += 1;
-        match (fast.critical_speed(), plain.critical_speed()) {
-            // Onsets have been seen to differ by 5e-7, for a reason not known yet. That nothing
-            // grows is certified for speeds 1e-4 lower.
-            (Some(fast), Some(plain)) => {
-                assert_ratio(&name, fast, plain, 1e-4);
-                exact += usize::from((fast / plain - 1.0).abs() < 1e-9);
+fn critical_speeds_are_those_of_full_spectra() {
+    for (factor, count, followed) in [(1.2, 120, 0.94), (2.0, 120, 0.88), (8.0, 80, 0.6)] {
+        let mut rng = ChaCha8Rng::seed_from_u64(21);
+        let mut compared = 0;
+        for i in 0..count {
+            let case = random_vehicle(&mut rng, factor);
+            let name = format!("vehicle {i} of factor {factor}");
+            let (model, range) = (LateralModel::new(&case), case.model.speed_range);
+            let poles = poles(&model, &case);
+            let Some(fast) = Stability::followed(&model, &poles, range, 1.0) else {
+                continue;
+            };
+            compared += 1;
+            let plain = Stability::search(&model, range).unwrap();
+            assert_eq!(fast.unstable_at_start, plain.unstable_at_start, "{name}");
+            assert_eq!(
+                fast.divergence.is_some(),
+                plain.divergence.is_some(),
+                "{name}"
+            );
+            match (fast.critical_speed(), plain.critical_speed()) {
+                (Some(fast), Some(plain)) => assert_ratio(&name, fast, plain, 1e-9),
+                (fast, plain) => assert_eq!(fast, plain, "{name}"),
             }
-            (fast, plain) => {
-                assert_eq!(fast, plain, "{name}");
-                exact += 1;
+        }
+        let share = f64::from(compared) / f64::from(count);
+        assert!(
+            share >= followed,
+            "{compared} of {count} followed at {factor}"
+        );
+    }
+}
+
+/// It does not matter from which speed the modes are followed.
+#[test]
+fn the_critical_speed_does_not_depend_on_where_the_search_starts() {
+    for (name, case) in vehicles(22, 60) {
+        let (model, range) = (LateralModel::new(&case), case.model.speed_range);
+        let from = |speed: f64| {
+            let poles = Poles::at(&model.forced.system, speed).unwrap();
+            Stability::new(&model, &poles, range, 1.0).unwrap()
+        };
+        let expected = from(case.service.speed).critical_speed();
+        for mph in [10.0, 90.0, 180.0, 400.0] {
+            match (from(mph * MPH).critical_speed(), expected) {
+                (Some(found), Some(expected)) => assert_ratio(&name, found, expected, 1e-9),
+                (found, expected) => assert_eq!(found, expected, "{name} from {mph} mph"),
             }
         }
     }
-    assert!(compared > 40, "{compared} compared");
-    assert!(10 * exact > 9 * compared, "{exact} of {compared} to 1e-9");
+}
+
+/// The least damping up to a speed. Full spectra at the speeds of a grid may pass over a dip that
+/// following the modes finds; the other way round only dips shallower than what the steps are
+/// laid for are passed over.
+#[test]
+fn least_damping_is_that_of_full_spectra_or_lower() {
+    let (mut compared, mut lower) = (0, 0);
+    for (name, case) in vehicles(24, 160) {
+        let model = LateralModel::new(&case);
+        let (range, below) = ([2.2, 1.3 * case.service.speed], 0.05);
+        let poles = poles(&model, &case);
+        let Some(fast) = DampingRange::followed(&model, &poles, range, below) else {
+            continue;
+        };
+        let plain = DampingRange::search(&model, range, below).unwrap();
+        let [fast, plain] = [fast, plain].map(|found| found.least().expect(&name).damping_ratio);
+        if plain > below && fast > below {
+            continue;
+        }
+        compared += 1;
+        lower += i32::from(fast < plain - 1e-9);
+        assert!(
+            fast < plain + 1e-9 || fast < plain + 1e-3 && plain > 0.0,
+            "{name}: {fast} against {plain}"
+        );
+    }
+    assert!(compared > 60, "{compared} compared");
+    assert!(lower < compared / 20, "{lower} of {compared} lower");
 }
 
 /// Transfer functions by elimination in the order of the structure, without pivoting, against a

@@ -20,6 +20,9 @@ use crate::{
     vehicle::GRAVITY,
 };
 
+/// Multiple of the lowest critical speed up to which others may become the lowest.
+const NEARBY: f64 = 1.5;
+
 /// Something to measure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Wanted {
@@ -104,11 +107,6 @@ impl<'a> Models<'a> {
         }
     }
 
-    fn lateral(&mut self) -> &LateralModel {
-        self.lateral
-            .get_or_insert_with(|| LateralModel::new(self.case))
-    }
-
     /// The lateral model and its poles at the operating speed.
     fn with_poles(&mut self) -> Result<(&LateralModel, &Poles), Failure> {
         let case = self.case;
@@ -134,7 +132,8 @@ impl<'a> Models<'a> {
 
     fn damping_to(&mut self, speed: f64, below: f64) -> Result<Vec<Piece>, Failure> {
         let start = self.case.model.speed_range[0].min(0.5 * speed);
-        let range = DampingRange::new(self.lateral(), [start, speed], below)
+        let (model, poles) = self.with_poles()?;
+        let range = DampingRange::new(model, poles, [start, speed], below)
             .map_err(|_| Failure::Eigenvalues)?;
         if range.diverges {
             return Err(Failure::Diverging);
@@ -192,8 +191,10 @@ impl<'a> Models<'a> {
     /// Speeds at which modes lose their damping; the end of the range where none does.
     fn onsets(&mut self) -> Result<Vec<Piece>, Failure> {
         let range = self.case.model.speed_range;
-        let stability =
-            Stability::search(self.lateral(), range).map_err(|_| Failure::Eigenvalues)?;
+        let (model, poles) = self.with_poles()?;
+        // Onsets far above the lowest cannot matter near this design.
+        let stability = Stability::new(model, poles, range, NEARBY);
+        let stability = stability.map_err(|_| Failure::Eigenvalues)?;
         if stability.divergence.is_some() {
             return Err(Failure::Diverging);
         }
@@ -201,12 +202,11 @@ impl<'a> Models<'a> {
             let bound = stability.critical_speed().unwrap_or(range[1]);
             return Ok(vec![Piece::single(0, bound)]);
         }
-        // Onsets far above the lowest cannot matter near this design.
         let lowest = stability.onsets[0].speed;
         let near = stability
             .onsets
             .iter()
-            .filter(|onset| onset.speed < 1.5 * lowest);
+            .filter(|onset| onset.speed < NEARBY * lowest);
         Ok(near
             .map(|onset| Piece {
                 value: onset.speed,

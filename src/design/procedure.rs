@@ -18,7 +18,7 @@ use super::{
 };
 use crate::{
     case::Case,
-    dynamics::{EigenError, LateralModel},
+    dynamics::EigenError,
     evaluate::{Evaluation, critical_speed::Stability, curving::CurvingLimits},
     index::Index,
     optimize::{
@@ -460,7 +460,7 @@ fn same(a: f64, b: f64) -> bool {
 /// What the profile of a solved study allows.
 fn profile(study: &Study, solved: &Solved) -> Profile {
     let case = study.design(&solved.point.x);
-    let stability = Stability::search(&LateralModel::new(&case), case.model.speed_range);
+    let stability = Stability::of(&case);
     Profile {
         conicity: case.wheel_rail.conicity,
         status: solved.status,

@@ -79,8 +79,9 @@ pub fn eigenvalues(mut a: DMatrix<f64>) -> Result<Vec<Complex<f64>>, EigenError>
         return Err(EigenError::NotFinite);
     }
     nalgebra::linalg::balancing::balance_parlett_reinsch(&mut a);
-    // The lateral model's own sizes are known when compiling, which makes them faster.
+    // The models' own sizes are known when compiling, which makes them faster.
     let values = match a.nrows() {
+        24 => schur_values!(SMatrix::<f64, 24, 24>::from_column_slice(a.as_slice())),
         30 => schur_values!(SMatrix::<f64, 30, 30>::from_column_slice(a.as_slice())),
         34 => schur_values!(SMatrix::<f64, 34, 34>::from_column_slice(a.as_slice())),
         _ => schur_values!(a.clone()),

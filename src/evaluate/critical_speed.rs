@@ -4,7 +4,10 @@ use super::{
     branches::{Branches, Event, Known, Search, Sought, onset},
     mode::{Mode, frequency},
 };
-use crate::dynamics::{LateralModel, Poles, lateral::Body};
+use crate::{
+    case::Case,
+    dynamics::{EigenError, LateralModel, Poles, lateral::Body},
+};
 
 /// Which body hunts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,6 +53,8 @@ pub struct Stability {
     pub divergence: Option<f64>,
 }
 
+/// How surely modes are followed: none can lose its damping and regain it unseen.
+const SURPRISE: [f64; 2] = [1.0, 0.003];
 /// Share of the lowest onset's speed below it at which nothing must grow.
 const BEYOND: f64 = 1e-4;
 
@@ -73,9 +78,37 @@ impl Crossing {
 }
 
 impl Stability {
-    /// By following the modes from the poles at some speed, up to a multiple `reach` of the lowest
-    /// onset: much quicker than [`Stability::search`], but an instability that begins and ends
-    /// between two of its speeds is passed over. `None` where the modes cannot be followed.
+    /// Of a case, over the range of speeds that it names.
+    ///
+    /// # Errors
+    ///
+    /// [`EigenError`] if eigenvalues cannot be had.
+    pub fn of(case: &Case) -> Result<Self, EigenError> {
+        let model = LateralModel::new(case);
+        let poles = Poles::at(&model.forced.system, case.service.speed)?;
+        Self::new(&model, &poles, case.model.speed_range, 1.0)
+    }
+
+    /// Searches `range`, m/s, up to a multiple `reach`, at least one, of the lowest onset, from the
+    /// poles at any speed: by following the modes, or by full spectra where these cannot be told
+    /// apart.
+    ///
+    /// # Errors
+    ///
+    /// [`EigenError`] if eigenvalues cannot be had.
+    pub fn new(
+        model: &LateralModel,
+        poles: &Poles,
+        range: [f64; 2],
+        reach: f64,
+    ) -> Result<Self, EigenError> {
+        match Self::followed(model, poles, range, reach) {
+            Some(stability) => Ok(stability),
+            None => Self::search(model, range),
+        }
+    }
+
+    /// By following the modes from the poles at some speed. `None` where they cannot be.
     pub fn followed(
         model: &LateralModel,
         poles: &Poles,
@@ -87,35 +120,40 @@ impl Stability {
         let wants = |sought, a: &Known, b: &Known| sought == Sought::Onset && onset(a, b);
         let mut search = Search {
             wants: &wants,
+            surprise: SURPRISE,
             events: Vec::new(),
         };
-        let lowest = |events: &[Event]| {
+        let enough = |events: &[Event], speed: f64| {
             let speeds = events.iter().map(|event| event.at.speed);
-            speeds.fold(f64::INFINITY, f64::min)
+            speed > reach * speeds.fold(f64::INFINITY, f64::min)
         };
-        let start = branches.walk(low, &mut search, |_, _| false)?;
-        branches.walk(high, &mut search, |events, speed| {
-            speed > reach * lowest(events)
-        })?;
-        let unstable_at_start = start.iter().any(|known| known.s.re >= 0.0);
-        search
-            .events
-            .sort_by(|a, b| a.at.speed.total_cmp(&b.at.speed));
-        if let Some(Event { at, .. }) = search.events.first().filter(|_| !unstable_at_start) {
-            let below = at.s - at.slope * BEYOND;
-            if !branches.stable_at(at.speed * (1.0 - BEYOND), below) {
-                return None;
+        let bottom = branches.walk(low, &mut search, |_, _| false)?;
+        let bottom = branches.complete(bottom, &mut search)?;
+        let unstable_at_start = bottom.iter().any(|known| known.s.re >= 0.0);
+        let mut certified = unstable_at_start;
+        if !enough(&search.events, branches.start_speed()) {
+            let top = branches.walk(high, &mut search, enough)?;
+            // The lowest onset is a place to certify, if there is one; the top otherwise.
+            certified |= stable_below_lowest(&mut branches, &search.events);
+            if !certified {
+                branches.complete(top, &mut search)?;
+                certified = search.events.is_empty();
             }
         }
-        let mut onsets = Vec::with_capacity(search.events.len());
-        for event in search.events {
+        if !certified && !stable_below_lowest(&mut branches, &search.events) {
+            return None;
+        }
+        let mut events = search.events;
+        events.sort_by(|a, b| a.at.speed.total_cmp(&b.at.speed));
+        let mut onsets = Vec::with_capacity(events.len());
+        for event in events {
             onsets.push(Crossing::new(model, event.at.speed, event.mode?));
         }
         Some(Self {
             range,
             onsets,
             unstable_at_start,
-            divergence: None,
+            divergence: branches.diverges().then_some(low),
         })
     }
 
@@ -132,4 +170,13 @@ impl Stability {
     pub fn onset(&self, kind: Hunting) -> Option<&Crossing> {
         self.onsets.iter().find(|onset| onset.kind == kind)
     }
+}
+
+/// Whether nothing grows just below the lowest of some onsets; not if there is none.
+fn stable_below_lowest(branches: &mut Branches<'_>, onsets: &[Event]) -> bool {
+    let lowest = onsets
+        .iter()
+        .map(|event| &event.at)
+        .min_by(|a, b| a.speed.total_cmp(&b.speed));
+    lowest.is_some_and(|at| branches.stable_at(at.speed * (1.0 - BEYOND), at.s - at.slope * BEYOND))
 }

@@ -8,7 +8,7 @@ use super::{
     branches::{Branches, Known, Search, Sought, minimum},
     mode::{damping_ratio, frequency},
 };
-use crate::dynamics::{LateralModel, Poles};
+use crate::dynamics::{EigenError, LateralModel, Poles};
 
 /// Where in the range a minimum lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,10 +43,36 @@ pub struct DampingRange {
     pub diverges: bool,
 }
 
+/// How surely modes are followed: minima that turn twice between two speeds must not be missed.
+const SURPRISE: [f64; 2] = [0.2, 0.003];
+
+/// Damping ratios below which all modes at the ends of a walk are known for sure.
+const FOLLOWED: f64 = 0.05;
+
 impl DampingRange {
-    /// By following the modes from the poles at some speed: much quicker than
-    /// [`DampingRange::new`], but a minimum whose mode turns twice between two of its speeds is
-    /// passed over. `None` where the modes cannot be followed.
+    /// Looks through `range`, m/s, for minima with damping ratios `below` a value, from the poles at
+    /// any speed: by following the modes, or by full spectra where these cannot be told apart, or
+    /// strongly damped ones are of interest too. The least at each end is always among what is
+    /// found.
+    ///
+    /// # Errors
+    ///
+    /// [`EigenError`] if eigenvalues cannot be had.
+    pub fn new(
+        model: &LateralModel,
+        poles: &Poles,
+        range: [f64; 2],
+        below: f64,
+    ) -> Result<Self, EigenError> {
+        let followed = if below <= FOLLOWED {
+            Self::followed(model, poles, range, below)
+        } else {
+            None
+        };
+        followed.map_or_else(|| Self::search(model, range, below), Ok)
+    }
+
+    /// By following the modes from the poles at some speed. `None` where they cannot be.
     pub fn followed(
         model: &LateralModel,
         poles: &Poles,
@@ -59,10 +85,13 @@ impl DampingRange {
             |sought, a: &Known, b: &Known| sought == Sought::Minimum && minimum(a, b, below);
         let mut search = Search {
             wants: &wants,
+            surprise: SURPRISE,
             events: Vec::new(),
         };
         let bottom = branches.walk(low, &mut search, |_, _| false)?;
+        let bottom = branches.complete(bottom, &mut search)?;
         let top = branches.walk(high, &mut search, |_, _| false)?;
+        let top = branches.complete(top, &mut search)?;
         let mut minima = Vec::new();
         for (place, modes) in [(Place::Bottom, bottom), (Place::Top, top)] {
             let mut ends: Vec<DampingMinimum> = modes
@@ -82,7 +111,7 @@ impl DampingRange {
         );
         Some(Self {
             minima,
-            diverges: false,
+            diverges: branches.diverges(),
         })
     }
 

@@ -68,7 +68,7 @@ impl Evaluation {
         let modes = LateralModes::new(&lateral, &lateral_poles, band)?;
         let vertical_modes = vertical_modes::vertical_modes(&vertical, &vertical_poles)?;
         Ok(Self {
-            stability: Stability::search(&lateral, case.model.speed_range)?,
+            stability: Stability::new(&lateral, &lateral_poles, case.model.speed_range, 1.0)?,
             curving: CurvingLimits::new(case, 0.0),
             lateral: LateralRide::from_poles(&lateral, case, &lateral_poles),
             lateral_passengers: PassengerRide::lateral(&lateral, case, &lateral_poles).ok(),

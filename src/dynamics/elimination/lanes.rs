@@ -16,6 +16,14 @@ pub struct Lanes {
     pub im: [f64; LANES],
 }
 
+/// Applies a function lane by lane. Arguments are taken by value: what is read cannot then be what
+/// is written, and the compiler keeps to whole vectors.
+#[allow(clippy::inline_always)]
+#[inline(always)]
+pub fn each(f: impl FnMut(usize) -> f64) -> [f64; LANES] {
+    std::array::from_fn(f)
+}
+
 // What works on lanes must be compiled into its caller, where the vector unit is known.
 #[allow(clippy::inline_always)]
 impl Lanes {
@@ -44,61 +52,69 @@ impl Lanes {
 
     /// self + a b.
     #[inline(always)]
-    pub fn add_product(&mut self, a: &Self, b: &Self) {
-        for l in 0..LANES {
-            self.re[l] += a.re[l] * b.re[l] - a.im[l] * b.im[l];
-            self.im[l] += a.re[l] * b.im[l] + a.im[l] * b.re[l];
+    #[must_use]
+    pub fn plus_product(self, a: Self, b: Self) -> Self {
+        Self {
+            re: each(|l| (-a.im[l]).mul_add(b.im[l], a.re[l].mul_add(b.re[l], self.re[l]))),
+            im: each(|l| a.im[l].mul_add(b.re[l], a.re[l].mul_add(b.im[l], self.im[l]))),
         }
     }
 
     /// self − a b.
     #[inline(always)]
-    pub fn subtract_product(&mut self, a: &Self, b: &Self) {
-        for l in 0..LANES {
-            self.re[l] -= a.re[l] * b.re[l] - a.im[l] * b.im[l];
-            self.im[l] -= a.re[l] * b.im[l] + a.im[l] * b.re[l];
+    #[must_use]
+    pub fn minus_product(self, a: Self, b: Self) -> Self {
+        Self {
+            re: each(|l| a.im[l].mul_add(b.im[l], (-a.re[l]).mul_add(b.re[l], self.re[l]))),
+            im: each(|l| (-a.im[l]).mul_add(b.re[l], (-a.re[l]).mul_add(b.im[l], self.im[l]))),
         }
     }
 
-    /// self + a b with a real number.
-    #[inline(always)]
-    pub fn add_scaled(&mut self, a: f64, b: &Self) {
-        for l in 0..LANES {
-            self.re[l] += a * b.re[l];
-            self.im[l] += a * b.im[l];
-        }
-    }
-
-    /// a b.
+    /// self + a b with real numbers.
     #[inline(always)]
     #[must_use]
-    pub fn times(&self, b: &Self) -> Self {
-        let mut product = Self::ZERO;
-        product.add_product(self, b);
-        product
+    pub fn plus_scaled(self, a: [f64; LANES], b: Self) -> Self {
+        Self {
+            re: each(|l| a[l].mul_add(b.re[l], self.re[l])),
+            im: each(|l| a[l].mul_add(b.im[l], self.im[l])),
+        }
+    }
+
+    /// a self with real numbers.
+    #[inline(always)]
+    #[must_use]
+    pub fn scaled(self, a: [f64; LANES]) -> Self {
+        Self {
+            re: each(|l| a[l] * self.re[l]),
+            im: each(|l| a[l] * self.im[l]),
+        }
+    }
+
+    /// self b.
+    #[inline(always)]
+    #[must_use]
+    pub fn times(self, b: Self) -> Self {
+        Self {
+            re: each(|l| (-self.im[l]).mul_add(b.im[l], self.re[l] * b.re[l])),
+            im: each(|l| self.im[l].mul_add(b.re[l], self.re[l] * b.im[l])),
+        }
     }
 
     /// 1/self.
     #[inline(always)]
     #[must_use]
-    pub fn inverse(&self) -> Self {
-        let mut inverse = Self::ZERO;
+    pub fn inverse(self) -> Self {
         let norm = self.norm_sqr();
-        for l in 0..LANES {
-            let scale = 1.0 / norm[l];
-            inverse.re[l] = self.re[l] * scale;
-            inverse.im[l] = -self.im[l] * scale;
+        let scale = each(|l| 1.0 / norm[l]);
+        Self {
+            re: each(|l| self.re[l] * scale[l]),
+            im: each(|l| -self.im[l] * scale[l]),
         }
-        inverse
     }
 
     /// |self|².
     #[inline(always)]
-    pub fn norm_sqr(&self) -> [f64; LANES] {
-        let mut norm = [0.0; LANES];
-        for l in 0..LANES {
-            norm[l] = self.re[l] * self.re[l] + self.im[l] * self.im[l];
-        }
-        norm
+    pub fn norm_sqr(self) -> [f64; LANES] {
+        each(|l| self.im[l].mul_add(self.im[l], self.re[l] * self.re[l]))
     }
 }

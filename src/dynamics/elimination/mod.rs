@@ -8,5 +8,5 @@ mod lanes;
 mod pattern;
 mod stiffness;
 
-pub use lanes::{LANES, Lanes};
+pub use lanes::{LANES, Lanes, each};
 pub use stiffness::{Factors, Stiffness};

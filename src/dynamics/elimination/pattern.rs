@@ -1,6 +1,6 @@
 //! Which entries an elimination touches, and the elimination itself.
 
-use super::lanes::{LANES, Lanes};
+use super::lanes::{LANES, Lanes, each};
 
 /// Order of pivots and entries to be worked on, for all matrices with nonzeros in the same places.
 ///
@@ -150,19 +150,18 @@ impl Pattern {
         }
         let mut margin = [f64::INFINITY; LANES];
         for (pivot, size) in self.pivots.iter().zip(diagonal) {
-            let left = a[pivot.slot].norm_sqr();
-            for l in 0..LANES {
-                margin[l] = margin[l].min(left[l] - LOST * size[l]);
-            }
+            let (left, size) = (a[pivot.slot].norm_sqr(), *size);
+            margin = each(|l| margin[l].min((-LOST).mul_add(size[l], left[l])));
             let inverse = a[pivot.slot].inverse();
             a[pivot.slot] = inverse;
             for entry in &self.lower[pivot.lower.clone()] {
                 let slot = usize::from(entry.slot);
-                a[slot] = a[slot].times(&inverse);
+                a[slot] = a[slot].times(inverse);
             }
             for [target, l, u] in &self.updates[pivot.updates.clone()] {
                 let (l, u) = (a[usize::from(*l)], a[usize::from(*u)]);
-                a[usize::from(*target)].subtract_product(&l, &u);
+                let target = usize::from(*target);
+                a[target] = a[target].minus_product(l, u);
             }
         }
         margin.map(|m| m > 0.0)
@@ -174,13 +173,9 @@ impl Pattern {
         let mut product = Lanes::ZERO;
         product.re = [1.0; LANES];
         for pivot in &self.pivots {
-            let inverse = &a[pivot.slot];
-            product = product.times(inverse);
-            for l in 0..LANES {
-                let scale = 1.0 / (product.re[l].abs() + product.im[l].abs());
-                product.re[l] *= scale;
-                product.im[l] *= scale;
-            }
+            product = product.times(a[pivot.slot]);
+            let size = each(|l| product.re[l].abs() + product.im[l].abs());
+            product = product.scaled(each(|l| 1.0 / size[l]));
         }
         product.im = product.im.map(|im| -im);
         product
@@ -192,19 +187,17 @@ impl Pattern {
         for pivot in &self.pivots {
             let known = x[pivot.coordinate];
             for entry in &self.lower[pivot.lower.clone()] {
-                x[usize::from(entry.coordinate)]
-                    .subtract_product(&a[usize::from(entry.slot)], &known);
+                let i = usize::from(entry.coordinate);
+                x[i] = x[i].minus_product(a[usize::from(entry.slot)], known);
             }
         }
         for pivot in self.pivots.iter().rev() {
             let mut sum = x[pivot.coordinate];
             for entry in &self.upper[pivot.upper.clone()] {
-                sum.subtract_product(
-                    &a[usize::from(entry.slot)],
-                    &x[usize::from(entry.coordinate)],
-                );
+                let other = x[usize::from(entry.coordinate)];
+                sum = sum.minus_product(a[usize::from(entry.slot)], other);
             }
-            x[pivot.coordinate] = sum.times(&a[pivot.slot]);
+            x[pivot.coordinate] = sum.times(a[pivot.slot]);
         }
     }
 
@@ -212,20 +205,18 @@ impl Pattern {
     #[inline(always)]
     pub fn solve_transposed(&self, a: &[Lanes], x: &mut [Lanes]) {
         for pivot in &self.pivots {
-            let known = x[pivot.coordinate].times(&a[pivot.slot]);
+            let known = x[pivot.coordinate].times(a[pivot.slot]);
             x[pivot.coordinate] = known;
             for entry in &self.upper[pivot.upper.clone()] {
-                x[usize::from(entry.coordinate)]
-                    .subtract_product(&a[usize::from(entry.slot)], &known);
+                let i = usize::from(entry.coordinate);
+                x[i] = x[i].minus_product(a[usize::from(entry.slot)], known);
             }
         }
         for pivot in self.pivots.iter().rev() {
             let mut sum = x[pivot.coordinate];
             for entry in &self.lower[pivot.lower.clone()] {
-                sum.subtract_product(
-                    &a[usize::from(entry.slot)],
-                    &x[usize::from(entry.coordinate)],
-                );
+                let other = x[usize::from(entry.coordinate)];
+                sum = sum.minus_product(a[usize::from(entry.slot)], other);
             }
             x[pivot.coordinate] = sum;
         }

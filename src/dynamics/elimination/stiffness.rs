@@ -1,7 +1,7 @@
 //! Dynamic stiffness of a model, factored for several frequencies at once.
 
 use super::{
-    lanes::{LANES, Lanes},
+    lanes::{LANES, Lanes, each},
     pattern::Pattern,
 };
 use crate::dynamics::LinearSystem;
@@ -13,6 +13,10 @@ pub struct Stiffness {
     entries: Vec<Entry>,
     /// Slots that only elimination fills.
     empty: Vec<usize>,
+    /// Entries with mass, those with damping alone, and those with damping that goes with the speed.
+    massive: Vec<usize>,
+    damped: Vec<usize>,
+    by_speed: Vec<usize>,
 }
 
 /// One entry of K, of C0, C1 and C2, and of M.
@@ -66,7 +70,13 @@ impl Stiffness {
         }
         let mut empty: Vec<usize> = (0..pattern.count()).collect();
         empty.retain(|slot| !entries.iter().any(|entry: &Entry| entry.slot == *slot));
+        let which = |of: &dyn Fn(&Entry) -> bool| -> Vec<usize> {
+            (0..entries.len()).filter(|&k| of(&entries[k])).collect()
+        };
         Self {
+            massive: which(&|entry| entry.m != 0.0),
+            damped: which(&|entry| entry.m == 0.0 && entry.c.iter().any(|c| *c != 0.0)),
+            by_speed: which(&|entry| entry.c[1..].iter().any(|c| *c != 0.0)),
             pattern,
             entries,
             empty,
@@ -91,35 +101,34 @@ impl Stiffness {
     /// Takes C at speeds `v`, m/s.
     #[inline(always)]
     pub fn set_speeds(&self, v: &[f64; LANES], factors: &mut Factors) {
+        let v = *v;
         let slowness = v.map(|v| 1.0 / v);
         for (entry, damping) in self.entries.iter().zip(&mut factors.damping) {
             let [c0, c1, c2] = entry.c;
-            for l in 0..LANES {
-                damping[l] = c0 + c1 * slowness[l] + c2 * v[l];
-            }
+            *damping = each(|l| c2.mul_add(v[l], c1.mul_add(slowness[l], c0)));
         }
     }
 
     /// Factors D(s) at the speeds set.
     #[inline(always)]
-    pub fn factor(&self, s: &Lanes, factors: &mut Factors) {
+    pub fn factor(&self, s: Lanes, factors: &mut Factors) {
         let square = s.times(s);
         for &slot in &self.empty {
             factors.a[slot] = Lanes::ZERO;
         }
         for (entry, c) in self.entries.iter().zip(&factors.damping) {
-            let a = &mut factors.a[entry.slot];
-            if entry.m == 0.0 {
-                for l in 0..LANES {
-                    a.re[l] = entry.k + c[l] * s.re[l];
-                    a.im[l] = c[l] * s.im[l];
+            let (c, Entry { k, m, .. }) = (*c, *entry);
+            factors.a[entry.slot] = if m == 0.0 {
+                Lanes {
+                    re: each(|l| c[l].mul_add(s.re[l], k)),
+                    im: each(|l| c[l] * s.im[l]),
                 }
             } else {
-                for l in 0..LANES {
-                    a.re[l] = entry.k + c[l] * s.re[l] + entry.m * square.re[l];
-                    a.im[l] = c[l] * s.im[l] + entry.m * square.im[l];
+                Lanes {
+                    re: each(|l| m.mul_add(square.re[l], c[l].mul_add(s.re[l], k))),
+                    im: each(|l| m.mul_add(square.im[l], c[l] * s.im[l])),
                 }
-            }
+            };
         }
         factors.sound = self.pattern.factor(&mut factors.a, &mut factors.diagonal);
     }
@@ -146,49 +155,41 @@ impl Stiffness {
     #[inline(always)]
     pub fn derivative_times(
         &self,
-        s: &Lanes,
+        s: Lanes,
         factors: &Factors,
         [x, y]: [&[Lanes]; 2],
         [dx, dy]: [&mut [Lanes]; 2],
     ) {
         dx.fill(Lanes::ZERO);
         dy.fill(Lanes::ZERO);
-        for (entry, c) in self.entries.iter().zip(&factors.damping) {
-            let (i, j) = (entry.row, entry.column);
-            if entry.m != 0.0 {
-                let mut d = Lanes::ZERO;
-                for l in 0..LANES {
-                    d.re[l] = c[l] + 2.0 * entry.m * s.re[l];
-                    d.im[l] = 2.0 * entry.m * s.im[l];
-                }
-                dx[i].add_product(&d, &x[i]);
-                dy[i].add_product(&d, &y[i]);
-            } else if entry.c.iter().any(|c| *c != 0.0) {
-                for l in 0..LANES {
-                    dx[i].re[l] += c[l] * x[j].re[l];
-                    dx[i].im[l] += c[l] * x[j].im[l];
-                    dy[j].re[l] += c[l] * y[i].re[l];
-                    dy[j].im[l] += c[l] * y[i].im[l];
-                }
-            }
+        for &k in &self.massive {
+            let (entry, c) = (self.entries[k], factors.damping[k]);
+            let (i, m) = (entry.row, 2.0 * entry.m);
+            let d = Lanes {
+                re: each(|l| m.mul_add(s.re[l], c[l])),
+                im: each(|l| m * s.im[l]),
+            };
+            dx[i] = dx[i].plus_product(d, x[i]);
+            dy[i] = dy[i].plus_product(d, y[i]);
+        }
+        for &k in &self.damped {
+            let (Entry { row, column, .. }, c) = (self.entries[k], factors.damping[k]);
+            dx[row] = dx[row].plus_scaled(c, x[column]);
+            dy[column] = dy[column].plus_scaled(c, y[row]);
         }
     }
 
     /// yᵀ V ∂D/∂V x / s = yᵀ (C2 V − C1/V) x.
     #[inline(always)]
     pub fn by_speed(&self, v: &[f64; LANES], x: &[Lanes], y: &[Lanes]) -> Lanes {
+        let v = *v;
         let slowness = v.map(|v| 1.0 / v);
         let mut sum = Lanes::ZERO;
-        for entry in &self.entries {
-            let [_, c1, c2] = entry.c;
-            if c1 != 0.0 || c2 != 0.0 {
-                let product = y[entry.row].times(&x[entry.column]);
-                for l in 0..LANES {
-                    let c = c2 * v[l] - c1 * slowness[l];
-                    sum.re[l] += c * product.re[l];
-                    sum.im[l] += c * product.im[l];
-                }
-            }
+        for &k in &self.by_speed {
+            let Entry { row, column, c, .. } = self.entries[k];
+            let [_, c1, c2] = c;
+            let c = each(|l| c2.mul_add(v[l], -c1 * slowness[l]));
+            sum = sum.plus_scaled(c, y[row].times(x[column]));
         }
         sum
     }

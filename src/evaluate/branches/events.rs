@@ -4,7 +4,8 @@ use nalgebra::Complex;
 
 use super::{
     pairs::{Pairs, Refiner, SETTLED},
-    track::{Known, Search, State},
+    state::{Known, State},
+    track::Search,
 };
 use crate::{
     dynamics::elimination::{LANES, Lanes},
@@ -92,16 +93,33 @@ pub fn root(sought: Sought, low: &Known, high: &Known) -> f64 {
 }
 
 struct Bracket {
-    branch: usize,
+    lane: usize,
     sought: Sought,
     low: Known,
     high: Known,
+    /// The lower end at first.
+    low_end: Known,
     at: f64,
-    found: bool,
+    found: Option<Event>,
 }
 
-/// Adds to a search what it wants between two neighbouring speeds. `None` if something cannot be
-/// found where it must be.
+impl Bracket {
+    fn new(sought: Sought, lane: usize, low: Known, high: Known) -> Self {
+        Self {
+            lane,
+            sought,
+            at: root(sought, &low, &high),
+            low,
+            high,
+            low_end: low,
+            found: None,
+        }
+    }
+}
+
+/// Adds to a search what it wants between two neighbouring speeds. Where onsets are wanted, so are
+/// those before a minimum that falls below zero. `None` if something cannot be found where it must
+/// be.
 pub(super) fn find(
     refiner: &mut Refiner,
     before: &State,
@@ -109,43 +127,46 @@ pub(super) fn find(
     search: &mut Search<'_>,
 ) -> Option<()> {
     let mut brackets = Vec::new();
-    let living = (0..after.alive.len()).filter(|&b| before.alive[b] && after.alive[b]);
-    for branch in living {
-        let (mut low, mut high) = (before.known(branch), after.known(branch));
+    let mut dips = Vec::new();
+    for l in before.living().filter(|&l| after.alive[l]) {
+        let (mut low, mut high) = (before.known(l), after.known(l));
         if low.speed > high.speed {
             std::mem::swap(&mut low, &mut high);
         }
         for sought in [Sought::Onset, Sought::Minimum] {
             if (search.wants)(sought, &low, &high) {
-                brackets.push(Bracket {
-                    branch,
-                    sought,
-                    low,
-                    high,
-                    at: root(sought, &low, &high),
-                    found: false,
-                });
+                brackets.push(Bracket::new(sought, l, low, high));
+            }
+        }
+        let stable = low.s.re < 0.0 && high.s.re < 0.0;
+        if stable && minimum(&low, &high, 0.0) {
+            dips.push(Bracket::new(Sought::Minimum, l, low, high));
+        }
+    }
+    for dips in dips.chunks_mut(LANES) {
+        close(refiner, before, dips)?;
+        for dip in dips {
+            let bottom = dip.found.as_ref()?.at;
+            if bottom.s.re >= 0.0 && (search.wants)(Sought::Onset, &dip.low_end, &bottom) {
+                brackets.push(Bracket::new(Sought::Onset, dip.lane, dip.low_end, bottom));
             }
         }
     }
     for brackets in brackets.chunks_mut(LANES) {
-        close(refiner, before, brackets, search)?;
+        close(refiner, before, brackets)?;
+        search
+            .events
+            .extend(brackets.iter_mut().filter_map(|b| b.found.take()));
     }
     Some(())
 }
 
 /// Closes up to [`LANES`] brackets together.
-fn close(
-    refiner: &mut Refiner,
-    start: &State,
-    brackets: &mut [Bracket],
-    search: &mut Search<'_>,
-) -> Option<()> {
-    let mut pairs = start.groups.first()?.clone();
+fn close(refiner: &mut Refiner, start: &State, brackets: &mut [Bracket]) -> Option<()> {
+    let mut pairs = start.pairs.clone();
     let lane = |l: usize, brackets: &[Bracket]| l.min(brackets.len() - 1);
     for l in 0..LANES {
-        let branch = brackets[lane(l, brackets)].branch;
-        pairs.take(l, &start.groups[branch / LANES], branch % LANES);
+        pairs.take(l, &start.pairs, brackets[lane(l, brackets)].lane);
     }
     for _ in 0..STEPS {
         let guesses: [Known; LANES] = std::array::from_fn(|l| {
@@ -167,7 +188,7 @@ fn close(
             if apart.is_nan() || apart > AGREE * known.s.norm() {
                 return None;
             }
-            if bracket.found {
+            if bracket.found.is_some() {
                 continue;
             }
             if bracket.sought.function(&known) < 0.0 {
@@ -177,8 +198,7 @@ fn close(
             }
             let next = root(bracket.sought, &bracket.low, &bracket.high);
             if (next - bracket.at).abs() < FOUND {
-                bracket.found = true;
-                search.events.push(Event {
+                bracket.found = Some(Event {
                     sought: bracket.sought,
                     at: finished(bracket.sought, &known),
                     mode: pairs.mode(l),
@@ -187,7 +207,7 @@ fn close(
                 bracket.at = next;
             }
         }
-        if brackets.iter().all(|bracket| bracket.found) {
+        if brackets.iter().all(|bracket| bracket.found.is_some()) {
             return apart(&pairs, brackets).then_some(());
         }
     }

@@ -11,9 +11,11 @@
 mod events;
 mod pairs;
 mod sector;
+mod state;
 mod track;
 
 pub use events::{Event, Sought, minimum, onset};
 pub use pairs::{Pairs, Refiner};
 pub use sector::modes_below;
-pub use track::{Branches, Known, Search};
+pub use state::Known;
+pub use track::{Branches, Search, Walked};

@@ -6,7 +6,7 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::{
     dynamics::{
         LinearSystem,
-        elimination::{Factors, LANES, Lanes, Stiffness},
+        elimination::{Factors, LANES, Lanes, Stiffness, each},
     },
     evaluate::mode::Mode,
 };
@@ -64,6 +64,17 @@ impl Pairs {
             std::slice::from_ref(&others.s),
         );
         self.speed[to] = others.speed[from];
+    }
+
+    /// Repeats the pair in lane `other` in lane `l`.
+    pub fn repeat(&mut self, l: usize, other: usize) {
+        let vectors = [&mut self.x, &mut self.y, &mut self.dx, &mut self.dy];
+        let values = vectors.into_iter().flatten();
+        for lanes in values.chain([&mut self.s, &mut self.slope]) {
+            (lanes.re[l], lanes.im[l]) = (lanes.re[other], lanes.im[other]);
+        }
+        self.speed[l] = self.speed[other];
+        self.change[l] = self.change[other];
     }
 
     /// Whether the right vectors of two pairs, of length one, are nearly the same.
@@ -179,7 +190,7 @@ impl WithSimd for Step<'_> {
             dy,
         } = self.pairs;
         stiffness.set_speeds(speed, factors);
-        stiffness.factor(s, factors);
+        stiffness.factor(*s, factors);
         residual.copy_from_slice(dx);
         x.copy_from_slice(dx);
         y.copy_from_slice(dy);
@@ -187,20 +198,14 @@ impl WithSimd for Step<'_> {
         stiffness.solve_transposed(factors, y);
         let scale = normalise(x);
         normalise(y);
-        stiffness.derivative_times(s, factors, [x, y], [dx, dy]);
+        stiffness.derivative_times(*s, factors, [x, y], [dx, dy]);
         let (rest, weight) = (dot(y, residual), dot(y, dx).inverse());
-        let by_speed = stiffness.by_speed(speed, x, y);
-        *slope = s.times(&by_speed).times(&weight);
-        let step = rest.times(&weight);
-        for l in 0..LANES {
-            slope.re[l] = -slope.re[l];
-            slope.im[l] = -slope.im[l];
-            let (re, im) = (step.re[l] * scale[l], step.im[l] * scale[l]);
-            s.re[l] -= re;
-            s.im[l] -= im;
-            let size = s.re[l] * s.re[l] + s.im[l] * s.im[l];
-            change[l] = ((re * re + im * im) / size).sqrt();
-        }
+        let turn = s.times(stiffness.by_speed(speed, x, y)).times(weight);
+        *slope = turn.scaled([-1.0; LANES]);
+        let step = rest.times(weight).scaled(scale);
+        *s = s.plus_scaled([-1.0; LANES], step);
+        let (moved, size) = (step.norm_sqr(), s.norm_sqr());
+        *change = each(|l| (moved[l] / size[l]).sqrt());
     }
 }
 
@@ -211,16 +216,11 @@ fn normalise(x: &mut [Lanes]) -> [f64; LANES] {
     let mut sum = [0.0; LANES];
     for x in x.iter() {
         let square = x.norm_sqr();
-        for l in 0..LANES {
-            sum[l] += square[l];
-        }
+        sum = each(|l| sum[l] + square[l]);
     }
-    let scale = sum.map(|sum| 1.0 / sum.sqrt());
+    let scale = each(|l| 1.0 / sum[l].sqrt());
     for x in x {
-        for l in 0..LANES {
-            x.re[l] *= scale[l];
-            x.im[l] *= scale[l];
-        }
+        *x = x.scaled(scale);
     }
     scale
 }
@@ -231,7 +231,7 @@ fn normalise(x: &mut [Lanes]) -> [f64; LANES] {
 fn dot(y: &[Lanes], x: &[Lanes]) -> Lanes {
     let mut sum = Lanes::ZERO;
     for (y, x) in y.iter().zip(x) {
-        sum.add_product(y, x);
+        sum = sum.plus_product(*y, *x);
     }
     sum
 }

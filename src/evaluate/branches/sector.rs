@@ -11,8 +11,8 @@ use crate::dynamics::elimination::{Factors, LANES, Lanes, Stiffness};
 /// Step of ln |s| as a share of the distance to the nearest mode known, and at most, among these
 /// and away from them.
 const SHARE: f64 = 0.5;
-const FINE: f64 = 0.12;
-const COARSE: f64 = 0.3;
+const FINE: f64 = 0.15;
+const COARSE: f64 = 0.4;
 /// Least step: a mode known may lie on the ray itself.
 const SMALLEST: f64 = 1e-5;
 /// Range of |s| that counts as among the modes, as a factor beyond theirs.
@@ -119,7 +119,7 @@ impl WithSimd for Steps<'_> {
             s.re[l] = self.radii[l] * self.direction.0;
             s.im[l] = self.radii[l] * self.direction.1;
         }
-        self.stiffness.factor(&s, self.factors);
+        self.stiffness.factor(s, self.factors);
         let determinant = self.stiffness.determinant(self.factors);
         for l in 0..LANES {
             let (re, im) = (determinant.re[l], determinant.im[l]);

@@ -4,290 +4,242 @@ use nalgebra::Complex;
 
 use super::{
     events::{Event, Sought, find},
-    pairs::{Pairs, Refiner, SETTLED},
+    pairs::{Refiner, SETTLED},
     sector::modes_below,
+    state::{Known, STRONG, State},
 };
 use crate::{
-    dynamics::{
-        LateralModel, Poles,
-        elimination::{LANES, Lanes},
-    },
+    dynamics::{LateralModel, Poles, elimination::LANES},
     evaluate::mode::damping_ratio,
 };
 
-/// An eigenvalue and its slope at a speed.
-#[derive(Debug, Clone, Copy)]
-pub struct Known {
-    /// V, m/s.
-    pub speed: f64,
-    /// s, rad/s.
-    pub s: Complex<f64>,
-    /// ds/d ln V.
-    pub slope: Complex<f64>,
-}
-
 /// Modes more damped than this are not followed: pairs close to becoming two real roots.
 const FOLLOWED: f64 = 0.6;
-/// Modes followed at most, the least damped: they fit side by side, and the others rarely matter.
-const FEW: usize = LANES;
-/// Damping ratio above which a mode is strongly damped.
-const STRONG: f64 = 0.2;
-/// Ratio of one speed to the next.
-const RATIO: f64 = 1.3;
+/// First and longest step, and the shortest before modes count as lost, in ln V.
+const FIRST: f64 = 0.2;
+const LONGEST: f64 = 0.8;
+const SHORTEST: f64 = 1e-3;
 /// Relative change of s that ends the iteration on the way: the step itself leaves its cube.
 const LOOSE: f64 = 3e-3;
-/// How often a step may be halved.
-const HALVINGS: usize = 12;
-/// Eigenvalues this close, as a share of their size, may be the same one found twice, and are if
-/// their vectors are alike.
-const CLOSE: f64 = 1e-2;
 /// Damping ratios between which the modes are counted.
 const COUNTED: [f64; 2] = [0.05, 0.15];
-
-/// All followed modes at one speed.
-#[derive(Debug, Clone)]
-pub(super) struct State {
-    pub groups: Vec<Pairs>,
-    pub alive: Vec<bool>,
-}
-
-impl State {
-    pub fn known(&self, branch: usize) -> Known {
-        let (group, l) = (&self.groups[branch / LANES], branch % LANES);
-        Known {
-            speed: group.speed[l],
-            s: group.s.lane(l),
-            slope: group.slope.lane(l),
-        }
-    }
-
-    fn speed(&self) -> f64 {
-        self.groups.first().map_or(0.0, |group| group.speed[0])
-    }
-
-    fn living(&self) -> impl Iterator<Item = usize> + '_ {
-        let branches = self.alive.iter().enumerate();
-        branches.filter(|(_, alive)| **alive).map(|(b, _)| b)
-    }
-
-    /// Gives up branches that are no longer worth following; their lanes repeat another's.
-    fn bury(&mut self, mut dies: impl FnMut(&Self, usize) -> bool) {
-        let dead: Vec<usize> = self.living().filter(|&b| dies(self, b)).collect();
-        for &b in &dead {
-            self.alive[b] = false;
-        }
-        self.fill_up();
-    }
-
-    fn fill_up(&mut self) {
-        let Some(model) = self.living().next() else {
-            return;
-        };
-        let (group, l) = (self.groups[model / LANES].clone(), model % LANES);
-        for b in (0..self.alive.len()).filter(|&b| !self.alive[b]) {
-            self.groups[b / LANES].take(b % LANES, &group, l);
-        }
-    }
-
-    /// Whether a branch has come to the mode of one before it: eigenvalues may be close, as those
-    /// of the two trucks are, but not the shapes too.
-    fn repeats(&self, branch: usize) -> bool {
-        let s = self.known(branch).s;
-        let lane = |b: usize| (&self.groups[b / LANES], b % LANES);
-        let before = self.living().take_while(|&b| b < branch);
-        before
-            .filter(|&b| (self.known(b).s - s).norm_sqr() < (CLOSE * s.norm()).powi(2))
-            .any(|b| Pairs::alike(lane(b), lane(branch)))
-    }
-}
+/// Relative distance within which an eigenvalue of a spectrum is one that was followed.
+const SAME: f64 = 1e-5;
 
 /// The modes of a lateral model over the speed.
-pub struct Branches {
+pub struct Branches<'m> {
+    model: &'m LateralModel,
     refiner: Refiner,
     start: State,
+    /// Real eigenvalues that grow, none or one: then at every speed, as det K is negative.
+    growing: usize,
 }
 
 /// What to look for on the way.
 pub struct Search<'f> {
     /// Whether an event is wanted on a branch between two speeds, the lower one first.
     pub wants: &'f dyn Fn(Sought, &Known, &Known) -> bool,
+    /// How far an eigenvalue may be found from where it was expected, as a share of its size: this
+    /// share of its damping ratio, but not less than the second value. The step's own cubic is
+    /// then off by a small part of that.
+    pub surprise: [f64; 2],
     /// What was found.
     pub events: Vec<Event>,
 }
 
-impl Branches {
-    /// From the poles at some speed. `None` if they cannot be told apart.
-    fn new(model: &LateralModel, poles: &Poles) -> Option<Self> {
-        let speed = poles.speed;
+/// Where a walk has ended.
+pub struct Walked(State);
+
+impl<'m> Branches<'m> {
+    /// From the poles at some speed, to be followed within a range of speeds, m/s. `None` if they
+    /// cannot be told apart.
+    pub fn within(range: [f64; 2], model: &'m LateralModel, poles: &Poles) -> Option<Self> {
         let mut refiner = Refiner::new(&model.forced.system);
-        let mut followed: Vec<Complex<f64>> = poles
-            .oscillatory()
-            .filter(|s| damping_ratio(*s).abs() < FOLLOWED)
-            .collect();
-        followed.sort_by(|a, b| damping_ratio(*a).total_cmp(&damping_ratio(*b)));
-        followed.truncate(FEW);
-        let mut state = State {
-            groups: Vec::new(),
-            alive: vec![true; followed.len()],
-        };
-        for chunk in followed.chunks(LANES) {
-            // A shift off the eigenvalue keeps the factors regular.
-            let shift = Complex::new(1.0 + 1e-8, 1e-8);
-            let s = Lanes::from_fn(|l| shift * chunk[l.min(chunk.len() - 1)]);
-            let mut pairs = Pairs::near(s, [speed; LANES], refiner.order());
-            refiner.step(&mut pairs);
-            refiner.step(&mut pairs);
-            state.groups.push(pairs);
-        }
-        state.alive.resize(LANES * state.groups.len(), false);
-        state.fill_up();
-        let lost = |state: &State, b: usize| {
-            let apart = state.known(b).s - followed[b];
-            apart.norm() > 1e-6 * followed[b].norm() || state.repeats(b)
-        };
-        state.bury(|state, b| damping_ratio(followed[b]) > STRONG && lost(state, b));
-        let fine = state.living().all(|b| !lost(&state, b));
-        fine.then_some(Self {
+        let growing = poles.values.iter().filter(|s| s.im == 0.0 && s.re >= 0.0);
+        let mut branches = Self {
+            growing: growing.count(),
+            start: State::new(&mut refiner, poles.speed, worth_following(poles))?,
+            model,
             refiner,
-            start: state,
-        })
-    }
-
-    /// From the poles at some speed, to be followed within a range of speeds, m/s.
-    pub fn within(range: [f64; 2], model: &LateralModel, poles: &Poles) -> Option<Self> {
-        let mut branches = Self::new(model, poles)?;
-        branches.move_to(poles.speed.clamp(range[0], range[1]))?;
-        Some(branches)
-    }
-
-    /// Moves the start to another speed.
-    fn move_to(&mut self, speed: f64) -> Option<()> {
-        let nothing = |_, _: &Known, _: &Known| false;
-        let mut search = Search {
-            wants: &nothing,
+        };
+        let inside = poles.speed.clamp(range[0], range[1]);
+        let mut nothing = Search {
+            wants: &|_, _, _| false,
+            surprise: [1.0, 0.1],
             events: Vec::new(),
         };
-        self.start = self.follow(speed, &mut search, |_, _| false)?;
-        Some(())
+        let start = branches.start.clone();
+        branches.start = branches.follow(start, inside, &mut nothing, |_, _| false)?;
+        (branches.growing <= 1).then_some(branches)
     }
 
-    /// Follows the modes from the start to `target`, m/s, and returns them there, or where
-    /// `enough` says so of events and speed after a step.
+    /// Whether a motion without oscillation grows, at any speed.
+    pub fn diverges(&self) -> bool {
+        self.growing > 0
+    }
+
+    /// Speed from which the modes are followed, m/s.
+    pub fn start_speed(&self) -> f64 {
+        self.start.speed()
+    }
+
+    /// Follows the modes from the start to `target`, m/s, or to where `enough` says so of events
+    /// and speed after a step.
     pub fn walk(
         &mut self,
         target: f64,
         search: &mut Search<'_>,
         enough: impl Fn(&[Event], f64) -> bool,
-    ) -> Option<Vec<Known>> {
-        let mut end = self.follow(target, search, enough)?;
-        for group in &mut end.groups {
-            self.refiner.settle(group, LANES, SETTLED);
+    ) -> Option<Walked> {
+        let start = self.start.clone();
+        self.follow(start, target, search, enough).map(Walked)
+    }
+
+    /// The modes at the end of a walk, made sure that none that is little damped there is missing:
+    /// those that were not followed are followed back to the start.
+    pub fn complete(&mut self, walked: Walked, search: &mut Search<'_>) -> Option<Vec<Known>> {
+        let speed = walked.0.speed();
+        let mut modes = self.settled(walked.0);
+        if !self.all(&modes, speed) {
+            let others = self.others(&modes, speed)?;
+            modes.extend(self.settled(others.clone()));
+            if !self.all(&modes, speed) {
+                return None;
+            }
+            let back = self.start.speed();
+            self.follow(others, back, search, |_, _| false)?;
         }
-        if !self.complete(&end) {
-            return None;
+        Some(modes)
+    }
+
+    fn settled(&mut self, mut state: State) -> Vec<Known> {
+        let used = state.used();
+        if used > 0 {
+            self.refiner.settle(&mut state.pairs, used, SETTLED);
         }
-        Some(end.living().map(|b| end.known(b)).collect())
+        state.living().map(|l| state.known(l)).collect()
+    }
+
+    /// Modes at a speed that are not among some known there.
+    fn others(&mut self, known: &[Known], speed: f64) -> Option<State> {
+        let poles = Poles::at(&self.model.forced.system, speed).ok()?;
+        let mut values = worth_following(&poles);
+        for known in known {
+            let apart = |s: &Complex<f64>| (s - known.s).norm();
+            let nearest = (0..values.len())
+                .min_by(|a, b| apart(&values[*a]).total_cmp(&apart(&values[*b])))
+                .filter(|&i| apart(&values[i]) < SAME * known.s.norm());
+            match nearest {
+                Some(i) => {
+                    values.swap_remove(i);
+                }
+                None if damping_ratio(known.s) < COUNTED[1] => return None,
+                None => (),
+            }
+        }
+        State::new(&mut self.refiner, speed, values)
     }
 
     fn follow(
         &mut self,
+        start: State,
         target: f64,
         search: &mut Search<'_>,
         enough: impl Fn(&[Event], f64) -> bool,
     ) -> Option<State> {
-        let mut now = self.start.clone();
+        let mut now = start;
         let mut last: Option<State> = None;
-        if now.groups.is_empty() {
-            return Some(now);
-        }
-        let steps = ((target / now.speed()).ln().abs() / RATIO.ln())
-            .ceil()
-            .max(1.0);
-        let (from, ratio) = (now.speed(), target / now.speed());
-        if (ratio - 1.0).abs() < 1e-12 {
-            return Some(now);
-        }
-        for k in (1..).take_while(|k| f64::from(*k) <= steps) {
-            let next = if f64::from(k) >= steps {
-                target
-            } else {
-                from * ratio.powf(f64::from(k) / steps)
-            };
-            let (mut to, mut halvings) = (next, 0);
-            while now.speed().to_bits() != next.to_bits() {
-                match self.advance(last.as_ref(), &now, to) {
-                    Some(state) => {
-                        find(&mut self.refiner, &now, &state, search)?;
-                        last = Some(std::mem::replace(&mut now, state));
-                        to = next;
-                    }
-                    None if halvings < HALVINGS => {
-                        halvings += 1;
-                        to = (to * now.speed()).sqrt();
-                    }
-                    None => return None,
-                }
-            }
-            if enough(&search.events, now.speed()) {
+        let mut length = FIRST;
+        while now.speed().to_bits() != target.to_bits() {
+            if now.used() == 0 {
+                now.pairs.speed = [target; LANES];
                 break;
+            }
+            let rest = (target / now.speed()).ln();
+            // Equal steps at the end.
+            let step = length.min(rest.abs() / (rest.abs() / length).ceil());
+            let to = if step < rest.abs() {
+                now.speed() * step.copysign(rest).exp()
+            } else {
+                target
+            };
+            let advanced = self.advance(last.as_ref(), &now, to, search.surprise);
+            // The error of the expectation goes with the third power of the step.
+            let surprise = advanced.as_ref().map_or(f64::INFINITY, |(_, s)| *s);
+            length = step * (0.9 / surprise.cbrt()).clamp(0.3, 2.0);
+            length = length.min(LONGEST);
+            match advanced {
+                Some((state, surprise)) if surprise <= 1.0 => {
+                    find(&mut self.refiner, &now, &state, search)?;
+                    last = Some(std::mem::replace(&mut now, state));
+                    if enough(&search.events, now.speed()) {
+                        break;
+                    }
+                }
+                _ if length < SHORTEST => return None,
+                _ => (),
             }
         }
         Some(now)
     }
 
-    /// The modes at another speed; `None` if the step is too long.
-    fn advance(&mut self, last: Option<&State>, now: &State, speed: f64) -> Option<State> {
+    /// The modes at another speed, and how far they were from where they were expected, relative
+    /// to what is allowed; `None` if they are lost.
+    fn advance(
+        &mut self,
+        last: Option<&State>,
+        now: &State,
+        speed: f64,
+        [share, least]: [f64; 2],
+    ) -> Option<(State, f64)> {
         let mut next = now.clone();
         let h = (speed / now.speed()).ln();
-        for b in now.living() {
-            let known = now.known(b);
+        for l in now.living() {
+            let known = now.known(l);
             // In ln s: at low speed the kinematic modes go with V itself.
             let rate = known.slope / known.s;
             let bend = last
-                .filter(|last| last.alive[b])
+                .filter(|last| last.alive[l])
                 .map_or(Complex::ZERO, |last| {
-                    let before = last.known(b);
+                    let before = last.known(l);
                     (rate - before.slope / before.s) / (known.speed / before.speed).ln()
                 });
             let s = known.s * (rate * h + bend * (h * h / 2.0)).exp();
-            let (group, l) = (&mut next.groups[b / LANES], b % LANES);
-            (group.s.re[l], group.s.im[l]) = (s.re, s.im);
+            (next.pairs.s.re[l], next.pairs.s.im[l]) = (s.re, s.im);
         }
-        for group in &mut next.groups {
-            group.speed = [speed; LANES];
-        }
-        next.bury(|state, b| {
-            damping_ratio(state.known(b).s).abs() > FOLLOWED || state.known(b).s.im <= 0.0
+        next.pairs.speed = [speed; LANES];
+        next.bury(|state, l| gone(state.known(l).s));
+        let expected = next.pairs.s;
+        self.refiner.settle(&mut next.pairs, now.used(), LOOSE);
+        let settled = |state: &State, l: usize| state.pairs.change[l] < LOOSE;
+        next.bury(|state, l| {
+            let strongly = damping_ratio(now.known(l).s) > STRONG;
+            let lost = || !settled(state, l) || state.repeats(l);
+            gone(state.known(l).s) || strongly && lost()
         });
-        let count = next.living().last().map_or(0, |b| b + 1);
-        for (g, group) in next.groups.iter_mut().enumerate() {
-            if g * LANES < count {
-                self.refiner
-                    .settle(group, (count - g * LANES).min(LANES), LOOSE);
-            }
-        }
-        let settled = |state: &State, b: usize| state.groups[b / LANES].change[b % LANES] < LOOSE;
-        // Strongly damped modes are let go where they cannot be told apart: they matter only if
-        // they turn up among the others later, and then the count tells.
-        next.bury(|state, b| {
-            let s = state.known(b).s;
-            let strongly = damping_ratio(now.known(b).s) > STRONG;
-            let lost = || !settled(state, b) || state.repeats(b);
-            damping_ratio(s).abs() > FOLLOWED || s.im <= 0.0 || strongly && lost()
+        let fine = next.living().all(|l| settled(&next, l) && !next.repeats(l));
+        let surprise = next.living().map(|l| {
+            let s = next.known(l).s;
+            let allowed = (share * damping_ratio(s).abs()).max(least);
+            (s - expected.lane(l)).norm() / (allowed * s.norm())
         });
-        let fine = next.living().all(|b| settled(&next, b) && !next.repeats(b));
-        fine.then_some(next)
+        let surprise = surprise.fold(0.0, f64::max);
+        fine.then_some((next, surprise))
     }
 
-    /// Whether nothing grows at a speed, m/s, but perhaps a mode close to `known`: looked up
-    /// without the modes followed.
+    /// Whether nothing grows at a speed, m/s, just below the onset of a mode, s = `known`: counted
+    /// anew, with the modes at the start as nothing but a hint where to take small steps.
     pub fn stable_at(&mut self, speed: f64, known: Complex<f64>) -> bool {
-        modes_below(&mut self.refiner, speed, 0.0, &[known]) == Some(0.0)
+        let mut hints: Vec<Complex<f64>> =
+            self.start.living().map(|l| self.start.known(l).s).collect();
+        hints.push(known);
+        let counted = modes_below(&mut self.refiner, speed, 0.0, &hints);
+        counted.is_some_and(|counted| self.agrees(counted, 0))
     }
 
-    /// Whether the followed modes are all that are little damped at their speed.
-    fn complete(&mut self, state: &State) -> bool {
-        let values: Vec<Complex<f64>> = state.living().map(|b| state.known(b).s).collect();
+    /// Whether some modes are all that are little damped at a speed.
+    fn all(&mut self, modes: &[Known], speed: f64) -> bool {
+        let values: Vec<Complex<f64>> = modes.iter().map(|known| known.s).collect();
         let mut ratios: Vec<f64> = values.iter().map(|s| damping_ratio(*s)).collect();
         ratios.push(COUNTED[0]);
         ratios.push(COUNTED[1]);
@@ -299,7 +251,24 @@ impl Branches {
             .max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
         let zeta = gap.map_or(COUNTED[0], |gap| f64::midpoint(gap[0], gap[1]));
         let expected = values.iter().filter(|s| damping_ratio(**s) < zeta).count();
-        let counted = modes_below(&mut self.refiner, state.speed(), zeta, &values);
-        counted.is_some_and(|counted| (counted - expected as f64).abs() < 0.1)
+        let counted = modes_below(&mut self.refiner, speed, zeta, &values);
+        counted.is_some_and(|counted| self.agrees(counted, expected))
     }
+
+    /// Whether a count agrees with a number of oscillations: growing real ones count half.
+    fn agrees(&self, counted: f64, oscillating: usize) -> bool {
+        (counted - 0.5 * self.growing as f64 - oscillating as f64).abs() < 0.1
+    }
+}
+
+fn worth_following(poles: &Poles) -> Vec<Complex<f64>> {
+    let oscillatory = poles.oscillatory();
+    oscillatory
+        .filter(|s| damping_ratio(*s).abs() < FOLLOWED)
+        .collect()
+}
+
+/// Whether a mode is no longer worth following.
+fn gone(s: Complex<f64>) -> bool {
+    damping_ratio(s).abs() > FOLLOWED || s.im <= 0.0
 }

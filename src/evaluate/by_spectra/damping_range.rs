@@ -46,7 +46,7 @@ impl DampingRange {
     /// # Errors
     ///
     /// [`EigenError`] if eigenvalues cannot be had.
-    pub fn new(model: &LateralModel, range: [f64; 2], below: f64) -> Result<Self, EigenError> {
+    pub fn search(model: &LateralModel, range: [f64; 2], below: f64) -> Result<Self, EigenError> {
         let [low, high] = range;
         let mut speeds = vec![low];
         let least = (high / low).powf(0.5).min(RATIO);

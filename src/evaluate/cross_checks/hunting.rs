@@ -4,7 +4,6 @@ use super::CrossCheck;
 use crate::{
     case::Case,
     closed_form::{corrections, kinematic},
-    dynamics::LateralModel,
     evaluate::{Evaluation, critical_speed::Stability},
     units::{
         Quantity,
@@ -90,9 +89,7 @@ pub(super) fn corrected(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Ev
             vehicle,
             ..case.clone()
         };
-        Stability::search(&LateralModel::new(&case), case.model.speed_range)
-            .ok()
-            .and_then(|s| s.critical_speed())
+        Stability::of(&case).ok().and_then(|s| s.critical_speed())
     };
     let mut baseline = case.vehicle;
     baseline.wheelset = prototype.wheelset;

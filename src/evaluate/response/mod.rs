@@ -16,7 +16,7 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::{
     dynamics::{
         ForcedModel,
-        elimination::{Factors, LANES, Lanes, Stiffness},
+        elimination::{Factors, LANES, Lanes, Stiffness, each},
     },
     track::Track,
 };
@@ -128,34 +128,32 @@ impl WithSimd for Batch<'_, '_> {
             re: [0.0; LANES],
             im: omega,
         };
-        stiffness.factor(&s, factors);
+        stiffness.factor(s, factors);
         let phases = phases(&omega, &model.lags, *speed);
         self.densities.fill([0.0; LANES]);
         for (excited, excitation) in excitations.iter_mut().zip(&model.excitations) {
             let Excited { forces, outputs, q } = excited;
             q.fill(Lanes::ZERO);
             for force in forces.iter() {
-                let phase = &phases[force.wheelset];
+                let transmitted = Lanes {
+                    re: [force.k; LANES],
+                    im: each(|l| omega[l] * force.c),
+                };
                 let q = &mut q[force.coordinate];
-                for l in 0..LANES {
-                    let damped = omega[l] * force.c;
-                    q.re[l] += force.k * phase.re[l] - damped * phase.im[l];
-                    q.im[l] += force.k * phase.im[l] + damped * phase.re[l];
-                }
+                *q = q.plus_product(transmitted, phases[force.wheelset]);
             }
             stiffness.solve(factors, q);
             // S in time frequency: S(Ω) dΩ/df with Ω = 2πf/V (3.4.2-5, 6).
             let spectrum = track.spectrum(excitation.irregularity);
             let input = omega.map(|omega| spectrum.density(omega / *speed) * TAU / *speed);
             for (density, output) in self.densities.iter_mut().zip(outputs.iter()) {
-                let transfer = output.transfer(&omega, |source| match source {
-                    Source::Coordinate(i) => &q[i],
-                    Source::Wheelset(i) => &phases[i],
+                let transfer = output.transfer(omega, |source| match source {
+                    Source::Coordinate(i) => q[i],
+                    Source::Wheelset(i) => phases[i],
                 });
                 let square = transfer.norm_sqr();
-                for l in 0..LANES {
-                    density[l] += square[l] * input[l];
-                }
+                let sum = *density;
+                *density = each(|l| square[l].mul_add(input[l], sum[l]));
             }
         }
     }
@@ -176,5 +174,5 @@ fn phases(omega: &[f64; LANES], lags: &[f64; 4], speed: f64) -> [Lanes; 4] {
     let (wheelbase, trucks) = (delayed(lags[1] - lags[0]), delayed(lags[2] - lags[0]));
     let mut first = Lanes::ZERO;
     first.re = [1.0; LANES];
-    [first, wheelbase, trucks, trucks.times(&wheelbase)]
+    [first, wheelbase, trucks, trucks.times(wheelbase)]
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::dynamics::{
     Excitation, ForcedModel, LinearSystem, Row,
-    elimination::{LANES, Lanes},
+    elimination::{LANES, Lanes, each},
 };
 
 /// −(K_u + iω C_u) per unit of irregularity at one wheelset, on one coordinate.
@@ -94,28 +94,25 @@ pub(super) fn outputs(
 impl OutputTerms {
     /// p·x + iω v·x − ω² a·x.
     #[inline(always)]
-    pub fn transfer<'x>(&self, omega: &[f64; LANES], value: impl Fn(Source) -> &'x Lanes) -> Lanes {
+    pub fn transfer(&self, omega: [f64; LANES], value: impl Fn(Source) -> Lanes) -> Lanes {
         let sum = |terms: &[(Source, f64)]| {
             let mut sum = Lanes::ZERO;
             for &(source, c) in terms {
-                sum.add_scaled(c, value(source));
+                sum = sum.plus_scaled([c; LANES], value(source));
             }
             sum
         };
         let mut transfer = sum(&self.displacement);
         if !self.velocity.is_empty() {
-            let v = sum(&self.velocity);
-            for l in 0..LANES {
-                transfer.re[l] -= omega[l] * v.im[l];
-                transfer.im[l] += omega[l] * v.re[l];
-            }
+            let rate = Lanes {
+                re: [0.0; LANES],
+                im: omega,
+            };
+            transfer = transfer.plus_product(rate, sum(&self.velocity));
         }
         if !self.acceleration.is_empty() {
-            let a = sum(&self.acceleration);
-            for l in 0..LANES {
-                transfer.re[l] -= omega[l] * omega[l] * a.re[l];
-                transfer.im[l] -= omega[l] * omega[l] * a.im[l];
-            }
+            let square = each(|l| -omega[l] * omega[l]);
+            transfer = transfer.plus_scaled(square, sum(&self.acceleration));
         }
         transfer
     }

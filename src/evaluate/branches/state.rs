@@ -1,0 +1,111 @@
+//! The modes followed, at one speed.
+
+use nalgebra::Complex;
+
+use super::pairs::{Pairs, Refiner};
+use crate::{
+    dynamics::elimination::{LANES, Lanes},
+    evaluate::mode::damping_ratio,
+};
+
+/// An eigenvalue and its slope at a speed.
+#[derive(Debug, Clone, Copy)]
+pub struct Known {
+    /// V, m/s.
+    pub speed: f64,
+    /// s, rad/s.
+    pub s: Complex<f64>,
+    /// ds/d ln V.
+    pub slope: Complex<f64>,
+}
+
+/// Damping ratio above which a mode is let go where it cannot be told apart from another: it
+/// matters only if it turns up among the little damped ones later, and then the count tells.
+pub(super) const STRONG: f64 = 0.2;
+/// Eigenvalues this close, as a share of their size, may be the same one found twice, and are if
+/// their vectors are alike.
+const CLOSE: f64 = 1e-2;
+/// How far an eigenvalue may be from where it was expected, as a share of its size.
+const EXPECTED: f64 = 1e-6;
+
+/// Up to [`LANES`] modes at one speed. Lanes without a mode of their own repeat another's.
+#[derive(Debug, Clone)]
+pub(super) struct State {
+    pub pairs: Pairs,
+    pub alive: [bool; LANES],
+}
+
+impl State {
+    /// The least damped of some eigenvalues known at `speed`, m/s. `None` if they cannot be told
+    /// apart.
+    pub fn new(refiner: &mut Refiner, speed: f64, mut values: Vec<Complex<f64>>) -> Option<Self> {
+        values.sort_by(|a, b| damping_ratio(*a).total_cmp(&damping_ratio(*b)));
+        values.truncate(LANES);
+        let first = values.first().copied().unwrap_or(Complex::ONE);
+        // A shift off the eigenvalue keeps the factors regular.
+        let shift = Complex::new(1.0 + 1e-8, 1e-8);
+        let s = Lanes::from_fn(|l| shift * values.get(l).copied().unwrap_or(first));
+        let mut state = Self {
+            pairs: Pairs::near(s, [speed; LANES], refiner.order()),
+            alive: std::array::from_fn(|l| l < values.len()),
+        };
+        if values.is_empty() {
+            return Some(state);
+        }
+        refiner.step(&mut state.pairs);
+        refiner.step(&mut state.pairs);
+        let lost = |state: &Self, l: usize| {
+            let apart = (state.known(l).s - values[l]).norm();
+            apart.is_nan() || apart > EXPECTED * values[l].norm() || state.repeats(l)
+        };
+        state.bury(|state, l| damping_ratio(values[l]) > STRONG && lost(state, l));
+        let fine = state.living().all(|l| !lost(&state, l));
+        fine.then_some(state)
+    }
+
+    pub fn known(&self, l: usize) -> Known {
+        Known {
+            speed: self.pairs.speed[l],
+            s: self.pairs.s.lane(l),
+            slope: self.pairs.slope.lane(l),
+        }
+    }
+
+    pub fn speed(&self) -> f64 {
+        self.pairs.speed[0]
+    }
+
+    pub fn living(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..LANES).filter(|&l| self.alive[l])
+    }
+
+    /// Lanes to be worked on.
+    pub fn used(&self) -> usize {
+        self.living().last().map_or(0, |l| l + 1)
+    }
+
+    /// Gives up modes that are no longer worth following.
+    pub fn bury(&mut self, mut dies: impl FnMut(&Self, usize) -> bool) {
+        for l in 0..LANES {
+            if self.alive[l] && dies(self, l) {
+                self.alive[l] = false;
+            }
+        }
+        let Some(other) = self.living().next() else {
+            return;
+        };
+        for l in (0..LANES).filter(|&l| !self.alive[l]) {
+            self.pairs.repeat(l, other);
+        }
+    }
+
+    /// Whether a mode has come to one before it: eigenvalues may be close, as those of the two
+    /// trucks are, but not the shapes too.
+    pub fn repeats(&self, l: usize) -> bool {
+        let s = self.known(l).s;
+        let close = |b: usize| (self.known(b).s - s).norm_sqr() < (CLOSE * s.norm()).powi(2);
+        self.living()
+            .take_while(|&b| b < l)
+            .any(|b| close(b) && Pairs::alike((&self.pairs, b), (&self.pairs, l)))
+    }
+}
