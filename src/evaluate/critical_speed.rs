@@ -55,6 +55,8 @@ pub struct Stability {
 
 /// How surely modes are followed: none can lose its damping and regain it unseen.
 const SURPRISE: [f64; 2] = [1.0, 0.003];
+/// Damping ratio above which modes that cannot be told apart for a moment cannot lose all of it.
+const MARGIN: f64 = 0.02;
 /// Share of the lowest onset's speed below it at which nothing must grow.
 const BEYOND: f64 = 1e-4;
 
@@ -121,6 +123,7 @@ impl Stability {
         let mut search = Search {
             wants: &wants,
             surprise: SURPRISE,
+            clear_of: MARGIN,
             events: Vec::new(),
         };
         let enough = |events: &[Event], speed: f64| {

@@ -45,6 +45,8 @@ pub struct DampingRange {
 
 /// How surely modes are followed: minima that turn twice between two speeds must not be missed.
 const SURPRISE: [f64; 2] = [0.2, 0.003];
+/// What is added to the damping ratios of interest where modes cannot be told apart for a moment.
+const MARGIN: f64 = 0.02;
 
 /// Damping ratios below which all modes at the ends of a walk are known for sure.
 const FOLLOWED: f64 = 0.05;
@@ -86,6 +88,7 @@ impl DampingRange {
         let mut search = Search {
             wants: &wants,
             surprise: SURPRISE,
+            clear_of: below + MARGIN,
             events: Vec::new(),
         };
         let bottom = branches.walk(low, &mut search, |_, _| false)?;

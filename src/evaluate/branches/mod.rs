@@ -9,6 +9,7 @@
 //! is `None`: full spectra answer then.
 
 mod events;
+mod jump;
 mod pairs;
 mod sector;
 mod state;

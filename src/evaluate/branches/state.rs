@@ -40,20 +40,35 @@ impl State {
     /// apart.
     pub fn new(refiner: &mut Refiner, speed: f64, mut values: Vec<Complex<f64>>) -> Option<Self> {
         values.sort_by(|a, b| damping_ratio(*a).total_cmp(&damping_ratio(*b)));
-        values.truncate(LANES);
-        let first = values.first().copied().unwrap_or(Complex::ONE);
+        Self::of(
+            refiner,
+            speed,
+            std::array::from_fn(|l| values.get(l).copied()),
+        )
+    }
+
+    /// Some eigenvalues known at `speed`, m/s, each in its lane. `None` if they cannot be told
+    /// apart.
+    pub fn of(
+        refiner: &mut Refiner,
+        speed: f64,
+        values: [Option<Complex<f64>>; LANES],
+    ) -> Option<Self> {
+        let first = values.iter().flatten().next().copied();
+        let values_or = values.map(|s| s.or(first).unwrap_or(Complex::ONE));
         // A shift off the eigenvalue keeps the factors regular.
         let shift = Complex::new(1.0 + 1e-8, 1e-8);
-        let s = Lanes::from_fn(|l| shift * values.get(l).copied().unwrap_or(first));
+        let s = Lanes::from_fn(|l| shift * values_or[l]);
         let mut state = Self {
             pairs: Pairs::near(s, [speed; LANES], refiner.order()),
-            alive: std::array::from_fn(|l| l < values.len()),
+            alive: values.map(|s| s.is_some()),
         };
-        if values.is_empty() {
+        if first.is_none() {
             return Some(state);
         }
         refiner.step(&mut state.pairs);
         refiner.step(&mut state.pairs);
+        let values = values_or;
         let lost = |state: &Self, l: usize| {
             let apart = (state.known(l).s - values[l]).norm();
             apart.is_nan() || apart > EXPECTED * values[l].norm() || state.repeats(l)

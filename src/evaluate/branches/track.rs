@@ -18,7 +18,7 @@ const FOLLOWED: f64 = 0.6;
 /// First and longest step, and the shortest before modes count as lost, in ln V.
 const FIRST: f64 = 0.2;
 const LONGEST: f64 = 0.8;
-const SHORTEST: f64 = 1e-3;
+const SHORTEST: f64 = 5e-3;
 /// Relative change of s that ends the iteration on the way: the step itself leaves its cube.
 const LOOSE: f64 = 3e-3;
 /// Damping ratios between which the modes are counted.
@@ -28,8 +28,8 @@ const SAME: f64 = 1e-5;
 
 /// The modes of a lateral model over the speed.
 pub struct Branches<'m> {
-    model: &'m LateralModel,
-    refiner: Refiner,
+    pub(super) model: &'m LateralModel,
+    pub(super) refiner: Refiner,
     start: State,
     /// Real eigenvalues that grow, none or one: then at every speed, as det K is negative.
     growing: usize,
@@ -43,6 +43,8 @@ pub struct Search<'f> {
     /// share of its damping ratio, but not less than the second value. The step's own cubic is
     /// then off by a small part of that.
     pub surprise: [f64; 2],
+    /// Damping ratio above which modes may be lost sight of for a moment.
+    pub clear_of: f64,
     /// What was found.
     pub events: Vec<Event>,
 }
@@ -66,6 +68,7 @@ impl<'m> Branches<'m> {
         let mut nothing = Search {
             wants: &|_, _, _| false,
             surprise: [1.0, 0.1],
+            clear_of: f64::NEG_INFINITY,
             events: Vec::new(),
         };
         let start = branches.start.clone();
@@ -176,7 +179,14 @@ impl<'m> Branches<'m> {
                         break;
                     }
                 }
-                _ if length < SHORTEST => return None,
+                _ if length < SHORTEST => {
+                    now = self.jump(&now, target, search)?;
+                    last = None;
+                    length = FIRST;
+                    if enough(&search.events, now.speed()) {
+                        break;
+                    }
+                }
                 _ => (),
             }
         }
@@ -261,7 +271,7 @@ impl<'m> Branches<'m> {
     }
 }
 
-fn worth_following(poles: &Poles) -> Vec<Complex<f64>> {
+pub(super) fn worth_following(poles: &Poles) -> Vec<Complex<f64>> {
     let oscillatory = poles.oscillatory();
     oscillatory
         .filter(|s| damping_ratio(*s).abs() < FOLLOWED)
