@@ -21,6 +21,7 @@
 //! from: *Rail Passenger Vehicle Truck Design Methodology*, FRA/MIT, 1981.
 
 pub mod case;
+pub mod chart;
 pub mod closed_form;
 pub mod comfort;
 pub mod design;

@@ -30,6 +30,8 @@ pub enum Command {
     Curve(Curve),
     /// Compute power spectra of accelerations and strokes
     Psd(Psd),
+    /// Draw the report's design charts for the vehicle, by figure number or name
+    Chart(Chart),
     /// Check a spec and do nothing else
     Check(Check),
     /// Write a commented spec to start from
@@ -218,6 +220,65 @@ pub struct Psd {
     /// Write CSV, one row per frequency
     #[arg(long, conflicts_with = "format")]
     pub csv: bool,
+}
+
+/// Options of `chart`.
+#[derive(Debug, Args)]
+pub struct Chart {
+    /// Spec file, or - for standard input
+    #[arg(value_name = "SPEC.toml", required_unless_present = "list")]
+    pub spec: Option<PathBuf>,
+
+    /// Charts by figure number or name
+    #[arg(value_name = "NAME", required_unless_present_any = ["all", "list"])]
+    pub charts: Vec<String>,
+
+    /// List the charts that there are and do nothing else
+    #[arg(long, conflicts_with_all = ["spec", "charts", "all", "files", "out"])]
+    pub list: bool,
+
+    /// Draw the whole book
+    #[arg(long, conflicts_with = "charts")]
+    pub all: bool,
+
+    /// Units that come first, at the left and bottom; the others stand at the right and top
+    #[arg(long, value_enum, default_value_t = Units::Us)]
+    pub units: Units,
+
+    /// Files for each chart, separated by commas (default: svg,csv in a folder, svg alone)
+    #[arg(long, value_enum, value_name = "KIND,…", value_delimiter = ',')]
+    pub files: Vec<ChartFile>,
+
+    /// Form of the list of what there is, or of what was written
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
+
+    /// Write into this folder; a single file may go to standard output
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// A system of units.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Units {
+    /// US customary units, as on the report's charts
+    Us,
+    /// SI units
+    Si,
+}
+
+/// A file of a chart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ChartFile {
+    /// The drawing
+    Svg,
+    /// A picture of 288 pixels per inch
+    #[cfg(feature = "png")]
+    Png,
+    /// The numbers behind it, SI, a table per panel
+    Csv,
+    /// The figure with its layout, SI
+    Json,
 }
 
 /// Options of `check`.

@@ -5,6 +5,7 @@
 //! (the result then holds the best compromise).
 
 mod arguments;
+mod chart;
 mod commands;
 mod design;
 mod input;
@@ -49,6 +50,7 @@ pub fn run() -> ExitCode {
         Command::Modes(call) => commands::modes(call),
         Command::Curve(call) => commands::curve(call),
         Command::Psd(call) => commands::psd(call),
+        Command::Chart(call) => chart::chart(call),
         Command::Check(call) => commands::check(call),
         Command::Init(call) => commands::init(call),
     };

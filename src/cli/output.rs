@@ -9,6 +9,12 @@ use bogie::export::file;
 
 use super::Failure;
 
+/// Makes sure that results can be written into a folder, before a long run for them.
+pub fn ready(folder: &Path) -> Result<(), Failure> {
+    file::ready(folder)
+        .map_err(|error| Failure::Failed(format!("cannot write to {}: {error}", folder.display())))
+}
+
 /// Writes a result to standard output, or into a folder as `name`.
 pub fn write(content: impl AsRef<[u8]>, out: Option<&Path>, name: &str) -> Result<(), Failure> {
     let Some(folder) = out else {
@@ -28,8 +34,11 @@ pub fn print(content: impl AsRef<[u8]>) -> Result<(), Failure> {
     let written = stdout
         .write_all(content)
         .and_then(|()| {
-            // A table for data frames is no text.
-            if content.ends_with(b"\n") || content.starts_with(b"PAR1") {
+            // A table for data frames is no text, nor is a picture.
+            if content.ends_with(b"\n")
+                || content.starts_with(b"PAR1")
+                || content.starts_with(b"\x89PNG")
+            {
                 Ok(())
             } else {
                 stdout.write_all(b"\n")

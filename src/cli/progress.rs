@@ -20,8 +20,29 @@ impl Line {
         Self(bar)
     }
 
+    /// A line for so many charts.
+    pub fn charts(count: usize) -> Self {
+        let line = Self::new();
+        let template = format!("{{spinner}} {{msg}} of {count}: {{pos}} evaluations, {{elapsed}}");
+        if let Ok(style) = ProgressStyle::with_template(&template) {
+            line.0.set_style(style);
+        }
+        line
+    }
+
+    /// Says which chart is drawn.
+    pub fn chart(&self, number: &str) {
+        self.0.set_message(format!("figure {number}"));
+    }
+
     pub fn finish(&self) {
         self.0.finish_and_clear();
+    }
+}
+
+impl bogie::chart::book::Progress for Line {
+    fn done(&self, count: usize) {
+        self.0.inc(count as u64);
     }
 }
 

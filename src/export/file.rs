@@ -5,6 +5,17 @@ use std::{
     path::Path,
 };
 
+/// Makes sure that files can be written into a folder, before the work for them begins.
+///
+/// # Errors
+///
+/// Any error of the file system.
+pub fn ready(folder: &Path) -> io::Result<()> {
+    std::fs::create_dir_all(folder)?;
+    tempfile::tempfile_in(folder)?;
+    Ok(())
+}
+
 /// Writes a file under a temporary name beside its place and renames it when it is whole.
 ///
 /// # Errors

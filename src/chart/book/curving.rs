@@ -1,0 +1,306 @@
+//! Steady curving: the performance boundary (Figure 4.5.5), lines of constant degree curve (4.5.6)
+//! and the influence of the yaw breakaway torque (A.2).
+
+use super::{
+    Entry,
+    performance::degree_curve,
+    sampling::sample,
+    stability_curving::curving_lines,
+    value::number,
+    workbook::{CONICITIES, Workbook},
+};
+use crate::{
+    chart::{
+        Curve, Dash, Direction, Family, Figure, Ink, Limit, Mark, Panel, Scale, Stroke, Symbol,
+        System, Unit, Weight,
+    },
+    evaluate::{
+        curving::{CurvingLimits, Limit as CurveLimit, LimitedCurve},
+        limits::CANT_DEFICIENCY,
+    },
+    index::Index,
+    parameter::Parameter,
+    track::{MAX_DEGREE, SUPERELEVATION_BASE},
+    units::us::{FOOT, INCH, LBF},
+};
+
+/// Units of cant deficiency: an angle, and the height of one rail over 56 in.
+pub(super) fn cant_units(system: System) -> Vec<Unit> {
+    let degree = Unit::new("°", std::f64::consts::PI / 180.0);
+    let height = match system {
+        System::Us => Unit::new("in", INCH / SUPERELEVATION_BASE),
+        System::Si => Unit::new("mm", 1e-3 / SUPERELEVATION_BASE),
+    };
+    vec![degree, height]
+}
+
+/// A superelevation or an unbalance, m, as it is spoken of.
+pub(super) fn height(system: System, height: f64) -> String {
+    match system {
+        System::Us => format!("{:.0} in", height / INCH),
+        System::Si => format!("{:.0} mm", 1e3 * height),
+    }
+}
+
+/// An axis of the degree curve, degrees of curve in the data as elsewhere.
+pub(super) fn degree_axis(range: [f64; 2]) -> crate::chart::Axis {
+    crate::chart::Axis::new(
+        "degree curve",
+        "D",
+        "degree_curve_deg",
+        Scale::Linear,
+        range,
+        [Unit::new("°", 1.0)],
+    )
+}
+
+/// Cant deficiencies of the boundary, degrees.
+const CANT: [f64; 2] = [-6.0, 6.0];
+/// Their number: every tenth of a degree.
+const STEPS: usize = 121;
+
+/// Boundary of flange contact and slip in cant deficiency against degree curve.
+pub(super) fn boundary(book: &Workbook, entry: &Entry) -> Figure {
+    let case = book.case();
+    let cant = Scale::Linear.spread(CANT.map(f64::to_radians), STEPS);
+    let limits: Vec<Option<CurvingLimits>> =
+        book.each(&cant, |angle| CurvingLimits::new(case, *angle).ok());
+    let flange = pieces(&limits, |l| l.flange);
+    let slip = pieces(&limits, |l| l.slip);
+    let largest = flange
+        .iter()
+        .chain(&slip)
+        .flat_map(|(_, points)| points)
+        .map(|p| p[0])
+        .fold(0.5, f64::max);
+    let x = degree_axis([0.0, (1.15 * largest).min(MAX_DEGREE)]).rounded();
+    let y = crate::chart::Axis::new(
+        "cant deficiency",
+        "φ_d",
+        "cant_deficiency_rad",
+        Scale::Linear,
+        CANT.map(f64::to_radians),
+        cant_units(book.system),
+    );
+    let family = |id: &str, title: &str, stroke: Stroke, found: &[Piece]| {
+        let curves = found
+            .iter()
+            .map(|(limit, points)| Curve::line(short(*limit), points.iter().copied()));
+        Family::new(id, title, stroke).curves(curves)
+    };
+    let mut panel = Panel::new("", x, y)
+        .with(family(
+            "flange",
+            "flange contact",
+            Stroke::new(Ink::Blue, Dash::Dashed).weight(Weight::Bold),
+            &flange,
+        ))
+        .with(family(
+            "slip",
+            "wheel slip",
+            Stroke::new(Ink::Black, Dash::Solid).weight(Weight::Bold),
+            &slip,
+        ));
+    // The share of μN left at the other wheel, every half degree where there is room.
+    for (i, limits) in limits.iter().enumerate() {
+        let angle = cant[i].to_degrees();
+        let shown = i % 10 == 0 && angle > -5.9 && angle < 5.9;
+        if let (true, Some(slip)) = (shown, limits.as_ref().and_then(|l| l.slip)) {
+            let left = format!("{:.0} %", 100.0 * slip.other_wheel_reserve.max(0.0));
+            panel = panel.mark(Mark::new(
+                [slip.degree, cant[i]],
+                Symbol::Dot,
+                Ink::Black,
+                left,
+            ));
+        }
+    }
+    panel.keys.push(Mark::new(
+        [0.0; 2],
+        Symbol::Dot,
+        Ink::Black,
+        "share of μN left at the other wheel of the slipping wheelset",
+    ));
+    let fra = CANT_DEFICIENCY / SUPERELEVATION_BASE;
+    panel = panel.limit(Limit {
+        axis: Direction::Y,
+        value: fra,
+        at_least: false,
+        label: format!("FRA: {}", height(book.system, CANT_DEFICIENCY)),
+    });
+    if let Some(required) = book.spec.demands.get(Index::DegreeCurve) {
+        panel = panel.limit(Limit {
+            axis: Direction::X,
+            value: required.to_degrees(),
+            at_least: true,
+            label: format!("required {}°", number(required.to_degrees(), 3)),
+        });
+    }
+    if let Some(degree) = degree_curve(case) {
+        panel = panel.mark(Mark {
+            label: format!("design {}°", number(degree, 3)),
+            ..Mark::design([degree, 0.0])
+        });
+    }
+    let mut figure = entry
+        .figure("Steady-state curving performance")
+        .panel(panel)
+        .height(1.1)
+        .described(
+            "Cant deficiency over degree curve: boundaries beyond which a wheelset touches a \
+             flange or a wheel slips, with the wheel named along the boundary.",
+        );
+    figure.subtitle = book.subtitle(
+        None,
+        &[
+            Parameter::Conicity,
+            Parameter::PrimaryBendingStiffness,
+            Parameter::PrimaryLateralStiffness,
+            Parameter::SecondaryYawBreakawayTorque,
+        ],
+    );
+    figure
+}
+
+/// A part of a boundary at which one limit governs.
+type Piece = (CurveLimit, Vec<[f64; 2]>);
+
+/// The boundary in parts by what limits; each begins where the last one ends.
+fn pieces(
+    limits: &[Option<CurvingLimits>],
+    of: impl Fn(&CurvingLimits) -> Option<LimitedCurve>,
+) -> Vec<Piece> {
+    let mut pieces: Vec<Piece> = Vec::new();
+    let mut last: Option<[f64; 2]> = None;
+    for found in limits {
+        let limited = found
+            .as_ref()
+            .and_then(|l| Some((of(l)?, l.cant_deficiency)));
+        let Some((limited, angle)) = limited else {
+            last = None;
+            continue;
+        };
+        let point = [limited.degree, angle];
+        match (pieces.last_mut(), last) {
+            (Some((limit, points)), Some(_)) if *limit == limited.limit => points.push(point),
+            (_, Some(previous)) => pieces.push((limited.limit, vec![previous, point])),
+            _ => pieces.push((limited.limit, vec![point])),
+        }
+        last = Some(point);
+    }
+    pieces
+}
+
+/// A limit in few words.
+fn short(limit: CurveLimit) -> String {
+    match limit {
+        CurveLimit::Flange(i) => format!("wheelset {}", i + 1),
+        CurveLimit::Slip(i, side) => {
+            let side = format!("{side:?}").to_lowercase();
+            format!("wheelset {} {side}", i + 1)
+        }
+    }
+}
+
+/// Lines of constant degree curve for two conicities.
+pub(super) fn lines(book: &Workbook, entry: &Entry) -> Figure {
+    let [x, y] = book.stiffness_axes();
+    let axes = [&x, &y];
+    let mut panel = Panel::new("", x.clone(), y.clone());
+    for (conicity, ink, dash) in [(1, Ink::Black, Dash::Solid), (3, Ink::Blue, Dash::Dashed)] {
+        let field = book.curving(conicity);
+        let degrees = [0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0];
+        let mut family = curving_lines(&field, axes, Stroke::new(ink, dash), &degrees);
+        family.id = format!("degree-curve-{}", CONICITIES[conicity]);
+        family.title = format!("degree curve, λ = {}", CONICITIES[conicity]);
+        panel = panel.with(family);
+    }
+    panel = panel.mark(book.design(
+        Parameter::PrimaryBendingStiffness,
+        Parameter::PrimaryLateralStiffness,
+    ));
+    let mut figure = entry
+        .figure("Lines of constant curving performance for two conicities")
+        .panel(panel)
+        .described(
+            "Lines of constant degree curve over the primary bending and lateral stiffness, for \
+             conicities 0.05 and 0.15; the design is marked.",
+        );
+    figure.subtitle = format!(
+        "{}, zero cant deficiency; the design has λ = {}",
+        book.subtitle(None, &[Parameter::SecondaryYawBreakawayTorque]),
+        book.case().wheel_rail.conicity
+    );
+    figure
+}
+
+/// Yaw stiffnesses of Figure A.2, lbf ft/rad: the report names neither them nor its curves; these
+/// are the one that it adopts, half of it, and its highest.
+const YAW: [f64; 3] = [0.5e6, 1e6, 6e6];
+
+/// Degree curve over the yaw breakaway torque for three yaw stiffnesses.
+pub(super) fn breakaway(book: &Workbook, entry: &Entry) -> Figure {
+    let torque = Parameter::SecondaryYawBreakawayTorque;
+    let yaw = Parameter::SecondaryYawStiffness;
+    let x = book
+        .axis(
+            torque.words(),
+            torque.symbol(),
+            &torque.column(),
+            torque.quantity(),
+            Scale::Linear,
+            [0.0, 20_000.0 * LBF * FOOT],
+        )
+        .holding([torque.get(book.case())]);
+    let curves: Vec<Curve> = YAW
+        .into_iter()
+        .enumerate()
+        .map(|(i, stiffness)| {
+            let stiffness = stiffness * LBF * FOOT;
+            let points = sample(book, x.scale, x.range, |t| {
+                degree_curve(&book.with(&[(torque, t), (yaw, stiffness)]))
+            });
+            let label = format!("K_sψ = {}", book.value(yaw.quantity(), stiffness, 2));
+            Curve::line(label, points)
+                .at(stiffness)
+                .stroke(Stroke::nth(i))
+        })
+        .collect();
+    let own = degree_curve(book.case());
+    let values = curves
+        .iter()
+        .flat_map(Curve::points)
+        .map(|p| p[1])
+        .chain(own);
+    let y = degree_axis([0.0, 0.0]).holding(values.collect::<Vec<_>>());
+    let panel = Panel::new("", x, y)
+        .with(Family::new("yaw-stiffness", "", Stroke::default()).curves(curves))
+        .mark(own.map(|degree| Mark::design([torque.get(book.case()), degree])))
+        .limit(book.spec.demands.get(Index::DegreeCurve).map(|d| Limit {
+            axis: Direction::Y,
+            value: d.to_degrees(),
+            at_least: true,
+            label: format!("required {}°", number(d.to_degrees(), 3)),
+        }));
+    let mut figure = entry
+        .figure("Degree curve against secondary yaw breakaway torque")
+        .panel(panel)
+        .described(
+            "Degree curve over the secondary yaw breakaway torque, for three secondary yaw \
+             stiffnesses; the design is marked.",
+        )
+        .note(
+            "The figure in the report is lost, and its three yaw stiffnesses with it; those here \
+             are values that its text names or adopts.",
+        );
+    figure.subtitle = book.subtitle(
+        None,
+        &[
+            Parameter::Conicity,
+            Parameter::PrimaryBendingStiffness,
+            Parameter::PrimaryLateralStiffness,
+            yaw,
+        ],
+    );
+    figure
+}

@@ -1,0 +1,44 @@
+//! Performance of a case, as charts plot it: what cannot be had is a gap.
+
+use crate::{
+    case::Case,
+    dynamics::{EigenError, LateralModel, Poles, VerticalModel},
+    evaluate::{
+        critical_speed::Stability,
+        curving::CurvingLimits,
+        lateral_modes::{KinematicBand, LateralMode, LateralModes},
+        ride::{LateralRide, VerticalRide},
+    },
+};
+
+/// Critical speed, m/s; `None`: stable over the whole range searched.
+///
+/// # Errors
+///
+/// [`EigenError`] if there are no eigenvalues.
+pub fn critical_speed(case: &Case) -> Result<Option<f64>, EigenError> {
+    Stability::of(case).map(|found| found.critical_speed())
+}
+
+/// Degree curve, degrees. `None`: there is no steady state.
+pub fn degree_curve(case: &Case) -> Option<f64> {
+    Some(CurvingLimits::new(case, 0.0).ok()?.degree())
+}
+
+/// Lateral ride; `None`: unstable at the operating speed.
+pub fn lateral_ride(case: &Case) -> Option<LateralRide> {
+    LateralRide::new(&LateralModel::new(case), case).ok()
+}
+
+/// Vertical ride; `None`: the carbody overturns.
+pub fn vertical_ride(case: &Case) -> Option<VerticalRide> {
+    VerticalRide::new(&VerticalModel::new(case), case).ok()
+}
+
+/// Modes of the lateral model at a speed, m/s; none where there are no eigenvalues.
+pub fn lateral_modes(case: &Case, model: &LateralModel, speed: f64) -> Vec<LateralMode> {
+    let band = KinematicBand::new(&case.vehicle, &case.wheel_rail.contact(), speed);
+    let modes = Poles::at(&model.forced.system, speed)
+        .and_then(|poles| LateralModes::new(model, &poles, band));
+    modes.map_or_else(|_| Vec::new(), |modes| modes.oscillatory)
+}

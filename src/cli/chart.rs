@@ -1,0 +1,184 @@
+//! `bogie chart`: the report's design charts for the vehicle of a spec.
+
+use std::{fmt::Write, path::Path};
+
+use bogie::chart::{
+    Drawing, Figure, System, Theme,
+    book::{self, BOOK, Entry, Workbook},
+    table,
+};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use super::{
+    Done, Failure,
+    arguments::{Chart, ChartFile, Format, Units},
+    commands::{failed, wrong},
+    input, output,
+    progress::Line,
+};
+
+/// A file that is ready to be written.
+struct File {
+    name: String,
+    content: Vec<u8>,
+}
+
+pub fn chart(call: &Chart) -> Result<Done, Failure> {
+    let Some(path) = call.spec.as_deref().filter(|_| !call.list) else {
+        output::print(list(call.format)?)?;
+        return Ok(Done::Complete);
+    };
+    let input::Named { name, spec, .. } = input::read(path)?;
+    let entries = wanted(call)?;
+    let system = match call.units {
+        Units::Us => System::Us,
+        Units::Si => System::Si,
+    };
+    // Alone on standard output a chart is a picture; in a folder its numbers stand beside it.
+    let files: &[ChartFile] = match (&call.files[..], &call.out) {
+        ([], None) => &[ChartFile::Svg],
+        ([], Some(_)) => &[ChartFile::Svg, ChartFile::Csv],
+        (files, _) => files,
+    };
+    if call.out.is_none() && (entries.len() > 1 || files.len() > 1) {
+        return Err(wrong(
+            "more than one file does not go to standard output: name a folder with --out DIR",
+        ));
+    }
+    if let Some(folder) = &call.out {
+        output::ready(folder)?;
+    }
+    let progress = Line::charts(entries.len());
+    let workbook = Workbook::new(&spec, &name, system, &progress);
+    let figures: Vec<(&Entry, Figure)> = entries
+        .into_iter()
+        .map(|entry| {
+            progress.chart(&entry.number());
+            (entry, entry.draw(&workbook))
+        })
+        .collect();
+    let drawn = figures
+        .par_iter()
+        .map(|(entry, figure)| Ok((*entry, draw(entry, figure, files)?)))
+        .collect::<Result<Vec<_>, Failure>>()?;
+    progress.finish();
+    let Some(folder) = call.out.as_deref() else {
+        let mut all = drawn.into_iter().flat_map(|(_, files)| files);
+        let (Some(only), None) = (all.next(), all.next()) else {
+            return Err(wrong(
+                "this chart has a table for each of its panels: name a folder with --out DIR",
+            ));
+        };
+        output::print(only.content)?;
+        return Ok(Done::Complete);
+    };
+    write(&name, folder, drawn, call.format)
+}
+
+/// Writes everything; nothing is written before all is drawn.
+fn write(
+    name: &str,
+    folder: &Path,
+    drawn: Vec<(&Entry, Vec<File>)>,
+    format: Format,
+) -> Result<Done, Failure> {
+    let mut written = Vec::new();
+    for (entry, files) in drawn {
+        let names: Vec<String> = files.iter().map(|file| file.name.clone()).collect();
+        for file in files {
+            output::write(file.content, Some(folder), &file.name)?;
+        }
+        let mut entry = describe(entry);
+        entry["files"] = json!(names);
+        written.push(entry);
+    }
+    if format == Format::Json {
+        let result =
+            json!({ "name": name, "folder": folder.display().to_string(), "charts": written });
+        output::print(serde_json::to_string_pretty(&result).map_err(failed)?)?;
+    }
+    Ok(Done::Complete)
+}
+
+/// The charts that were asked for; none: the list is.
+fn wanted(call: &Chart) -> Result<Vec<&'static Entry>, Failure> {
+    if call.all {
+        return Ok(BOOK.iter().collect());
+    }
+    let mut entries: Vec<&Entry> = Vec::new();
+    for name in &call.charts {
+        let entry = book::find(name).ok_or_else(|| {
+            let near = book::suggestion(name)
+                .map(|near| format!("did you mean `{near}`? "))
+                .unwrap_or_default();
+            wrong(&format!(
+                "unknown chart `{name}`; {near}`bogie chart --list` names all"
+            ))
+        })?;
+        if !entries.iter().any(|known| known.name == entry.name) {
+            entries.push(entry);
+        }
+    }
+    Ok(entries)
+}
+
+fn describe(entry: &Entry) -> Value {
+    json!({ "figures": entry.numbers, "name": entry.name, "title": entry.title })
+}
+
+fn list(format: Format) -> Result<String, Failure> {
+    if format == Format::Json {
+        let charts: Vec<Value> = BOOK.iter().map(describe).collect();
+        return serde_json::to_string_pretty(&json!({ "charts": charts })).map_err(failed);
+    }
+    let mut text =
+        String::from("figure          name                                what it shows\n");
+    for entry in &BOOK {
+        let _ = writeln!(
+            text,
+            "{:<15} {:<35} {}",
+            entry.numbers.join(", "),
+            entry.name,
+            entry.title
+        );
+    }
+    text.push_str(
+        "\ndraw them with `bogie chart SPEC.toml`, by figure or name, or all with --all\n",
+    );
+    Ok(text)
+}
+
+fn draw(entry: &Entry, figure: &Figure, wanted: &[ChartFile]) -> Result<Vec<File>, Failure> {
+    let drawing = Drawing::new(figure);
+    let stem = format!("{}-{}", entry.numbers[0], entry.name);
+    let mut files = Vec::new();
+    let mut add = |ending: &str, content: Vec<u8>| {
+        files.push(File {
+            name: format!("{stem}{ending}"),
+            content,
+        });
+    };
+    for kind in wanted {
+        match kind {
+            ChartFile::Svg => add(".svg", drawing.svg(Theme::Print).into_bytes()),
+            #[cfg(feature = "png")]
+            ChartFile::Png => add(".png", bogie::chart::png::png(&drawing).map_err(failed)?),
+            ChartFile::Csv => {
+                for (panel, table) in table::tables(figure) {
+                    let panel = if panel.is_empty() {
+                        panel
+                    } else {
+                        format!("-{panel}")
+                    };
+                    add(&format!("{panel}.csv"), table.csv().into_bytes());
+                }
+            }
+            ChartFile::Json => {
+                let text = serde_json::to_string_pretty(&drawing.json()).map_err(failed)?;
+                add(".json", (text + "\n").into_bytes());
+            }
+        }
+    }
+    Ok(files)
+}

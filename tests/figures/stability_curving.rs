@@ -1,0 +1,193 @@
+//! What 4.5, 4.6 and Appendix A say of stability, curving and their trade-off.
+
+use bogie::chart::{Curve, Symbol, book::CONICITIES};
+
+use super::{
+    at, curve, figure, stability_column,
+    support::{LBF_FT, LBF_PER_FT, MPH, assert_ratio},
+    workbook,
+};
+
+/// 4.5.2: flange contact before slip, at about 0.8° (0.90° here, as in validation.md); the slip
+/// boundary reaches furthest at a cant deficiency of about one degree, where nothing of μN is left
+/// at the other wheel.
+#[test]
+fn figure_4_5_5() {
+    let spec = stability_column();
+    let figure = figure(&workbook(&spec), "4.5.5");
+    let panel = &figure.panels[0];
+    let flange = panel.family("flange").unwrap();
+    let at_zero = flange
+        .curves
+        .iter()
+        .flat_map(Curve::points)
+        .min_by(|a, b| a[1].abs().total_cmp(&b[1].abs()))
+        .unwrap();
+    assert_ratio("flange-limited curve", at_zero[0], 0.85, 0.07);
+    let slip = panel.family("slip").unwrap();
+    let tip = slip
+        .curves
+        .iter()
+        .flat_map(Curve::points)
+        .max_by(|a, b| a[0].total_cmp(&b[0]))
+        .unwrap();
+    assert!((0.7..1.4).contains(&tip[1].to_degrees()), "{tip:?}");
+    assert!(tip[0] > at_zero[0]);
+    // The boundary's wheels there: outer below the tip, inner above it, of the first wheelset.
+    for wheel in ["wheelset 1 outer", "wheelset 1 inner"] {
+        let ends = &curve(&figure, 0, wheel).pieces[0];
+        let near = |p: &[f64; 2]| (p[0] - tip[0]).abs() < 0.02;
+        assert!(near(&ends[0]) || near(&ends[ends.len() - 1]), "{wheel}");
+    }
+    let left = panel
+        .marks
+        .iter()
+        .filter(|m| m.symbol == Symbol::Dot)
+        .min_by(|a, b| {
+            (a.at[1] - tip[1])
+                .abs()
+                .total_cmp(&(b.at[1] - tip[1]).abs())
+        });
+    assert_eq!(left.unwrap().label, "2 %");
+}
+
+/// 4.5.2 of Figure 4.5.6: the degree curve rises as K_b falls, hardly depends on K_py, and rises
+/// with conicity (towards a rigid truck it falls: validation.md).
+#[test]
+fn figure_4_5_6() {
+    let spec = stability_column();
+    let mut book = workbook(&spec);
+    book.grid = 25;
+    let [x, y] = book.stiffness_axes();
+    let axes = [&x, &y];
+    let degree = |conicity: usize, k_b: f64, k_py: f64| {
+        let point = [k_b * LBF_FT, k_py * LBF_PER_FT];
+        book.curving(conicity).value(0, point, axes).unwrap()
+    };
+    for k_py in [1e5, 5e5, 2e6] {
+        for conicity in [1, 3] {
+            let falling = [3e5, 1e6, 3e6, 1e7].map(|k_b| degree(conicity, k_b, k_py));
+            assert!(falling.is_sorted_by(|a, b| a > b), "{falling:?}");
+            assert!(falling[0] > 2.5 * falling[3]);
+        }
+        for k_b in [3e5, 1e6, 3e6] {
+            let [low, high] = [1, 3].map(|conicity| degree(conicity, k_b, k_py));
+            assert!(high > low, "{k_b} {k_py}: {low} {high}");
+        }
+    }
+    // A factor of 50 in K_py changes it by less than a fifth of what one of 33 in K_b does.
+    for k_b in [1e6, 3e6] {
+        let change = degree(1, k_b, 1e5) / degree(1, k_b, 5e6);
+        assert!((change - 1.0).abs() < 0.2, "{change}");
+    }
+}
+
+/// 4.5.3: as K_py grows the critical speed rises sharply in a limited region; above 8e5 lb/ft it
+/// hardly rises. As conicity grows it falls.
+#[test]
+fn figure_4_5_8() {
+    let spec = stability_column();
+    let figure = figure(&workbook(&spec), "4.5.8");
+    let speed = |conicity: f64, k_py: f64| {
+        at(
+            curve(&figure, 0, &format!("λ = {conicity}")),
+            k_py * LBF_PER_FT,
+        ) / MPH
+    };
+    for (conicity, flat) in [(0.05, 0.02), (0.1, 0.07), (0.15, 0.08), (0.25, 0.08)] {
+        let [soft, bend, stiff] = [2.1e4, 8e5, 4.9e6].map(|k| speed(conicity, k));
+        assert!(
+            (stiff / bend - 1.0).abs() < flat,
+            "λ {conicity}: {bend} {stiff}"
+        );
+        assert!(bend / soft > 1.6, "λ {conicity}: {soft} {bend}");
+    }
+    for k_py in [2.1e4, 1e5, 5e5, 2e6] {
+        let falling = CONICITIES.map(|conicity| speed(conicity, k_py));
+        assert!(falling.is_sorted_by(|a, b| a > b), "{k_py}: {falling:?}");
+    }
+}
+
+/// 4.5.3: for small K_b the critical speed is below the operating speed; it rises with K_b and
+/// falls again towards a rigid truck. As conicity grows it falls (for K_b below 1e6 ft-lb/rad
+/// also the other way round: validation.md).
+#[test]
+fn figure_4_5_9() {
+    let spec = stability_column();
+    let figure = figure(&workbook(&spec), "4.5.9");
+    let own = curve(&figure, 0, "λ = 0.05");
+    let top = own.points().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
+    assert!(at(own, 2e5 * LBF_FT) < 110.0 * MPH);
+    assert!(at(own, 1.9e7 * LBF_FT) < 0.85 * top[1]);
+    assert!((3e6..7e6).contains(&(top[0] / LBF_FT)), "{top:?}");
+    for k_b in [1e6, 3e6, 1e7] {
+        let falling = CONICITIES
+            .map(|conicity| at(curve(&figure, 0, &format!("λ = {conicity}")), k_b * LBF_FT));
+        assert!(falling.is_sorted_by(|a, b| a > b), "{k_b}: {falling:?}");
+    }
+}
+
+/// 4.7 reads 220 and 270 mph off Figure 4.6.5 at half the primary stiffness, for 1e6 and 6e6
+/// ft-lb/rad: read to 10 mph. Below 1e6 the critical speed hardly depends on K_sψ, above it rises.
+#[test]
+fn figure_4_6_5() {
+    let spec = stability_column();
+    let figure = figure(&workbook(&spec), "4.6.5");
+    let half = curve(&figure, 0, "0.5 × primary stiffnesses");
+    let speed = |k: f64| at(half, k * LBF_FT) / MPH;
+    assert!((speed(1e6) - 220.0).abs() < 5.0, "{}", speed(1e6));
+    assert!((speed(6e6) - 270.0).abs() < 12.0, "{}", speed(6e6));
+    assert!(speed(1e6) / speed(1.1e5) < 1.06);
+    let rising = [1e6, 3e6, 6e6, 1e7].map(speed);
+    assert!(rising.is_sorted_by(|a, b| a < b), "{rising:?}");
+}
+
+/// 4.5.4: above 175 mph λ = 0.05 allows the tightest curves, from 100 to 175 mph λ = 0.1, below
+/// λ = 0.15 (and 0.25, which is not so here: validation.md). Our curves cross at 88 and 169 mph, so
+/// speeds within 10 % of the report's two are not asked about.
+#[test]
+fn figure_4_5_13() {
+    let spec = stability_column();
+    let mut book = workbook(&spec);
+    book.grid = 25;
+    let figure = figure(&book, "4.5.13");
+    let best = |speed: f64| {
+        let degree = |conicity: f64| at(curve(&figure, 0, &format!("λ = {conicity}")), speed * MPH);
+        CONICITIES
+            .into_iter()
+            .filter(|conicity| degree(*conicity).is_finite())
+            .max_by(|a, b| degree(*a).total_cmp(&degree(*b)))
+            .unwrap()
+    };
+    for speed in [60.0, 70.0, 80.0] {
+        assert_ratio("best conicity", best(speed), 0.15, 1e-12);
+    }
+    for speed in [110.0, 125.0, 140.0, 155.0] {
+        assert_ratio("best conicity", best(speed), 0.1, 1e-12);
+    }
+    for speed in [193.0, 225.0, 250.0] {
+        assert_ratio("best conicity", best(speed), 0.05, 1e-12);
+    }
+}
+
+/// 4.5.2: above 7500 ft-lb the degree curve does not depend on T_sψ for K_sψ below 1e6 ft-lb/rad.
+/// Appendix A: it is degraded in proportion to the torque.
+#[test]
+fn figure_a_2() {
+    let spec = stability_column();
+    let figure = figure(&workbook(&spec), "A.2");
+    let degree = |label: &str, torque: f64| at(curve(&figure, 0, label), torque * LBF_FT);
+    for label in ["K_sψ = 5×10^5 lbf ft/rad", "K_sψ = 10^6 lbf ft/rad"] {
+        assert_ratio(label, degree(label, 19_000.0), degree(label, 7500.0), 1e-9);
+    }
+    let stiff = |torque: f64| degree("K_sψ = 6×10^6 lbf ft/rad", torque);
+    let lost = stiff(0.0) - stiff(12_000.0);
+    assert!(lost > 0.2);
+    for torque in [3000.0, 6000.0, 9000.0] {
+        let share = (stiff(0.0) - stiff(torque)) / lost;
+        assert!(
+            (share - torque / 12_000.0).abs() < 0.01,
+            "{torque}: {share}"
+        );
+    }
+}
