@@ -1,22 +1,41 @@
-//! What the author of a wrong spec gets to read, for every kind of mistake.
+//! What the author of a wrong spec gets to read, for every kind of mistake: `problems/invalid/`.
 
 use std::fs;
 
 use bogie::spec::Spec;
 
+mod support;
+use support::problem_files;
+
 #[test]
 fn messages() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/problems/invalid");
-    let mut files: Vec<_> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .collect();
-    files.sort();
-    assert!(files.len() >= 15);
-    for file in files {
-        let name = file.file_name().unwrap().to_str().unwrap();
-        let source = fs::read_to_string(&file).unwrap();
-        let mistakes = Spec::parse(&source).expect_err(name);
-        insta::assert_snapshot!(name, mistakes.render(name, &source, false));
+    let files = problem_files("invalid");
+    assert!(files.len() >= 65);
+    for (name, bytes) in files {
+        let mistakes = Spec::read(&bytes).expect_err(&name);
+        let source = String::from_utf8_lossy(&bytes);
+        insta::assert_snapshot!(name.as_str(), mistakes.render(&name, &source, false));
+    }
+}
+
+/// A spec that is taken away takes its message along.
+#[test]
+fn every_message_has_its_spec() {
+    for (folder, prefix) in [
+        ("invalid", "invalid_specs__"),
+        ("doubtful", "doubtful_specs__"),
+    ] {
+        let files = problem_files(folder);
+        let snapshots = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/snapshots");
+        let mut count = 0;
+        for entry in fs::read_dir(snapshots).unwrap() {
+            let file_name = entry.unwrap().file_name().into_string().unwrap();
+            if let Some(rest) = file_name.strip_prefix(prefix) {
+                let name = rest.trim_end_matches(".snap");
+                assert!(files.iter().any(|(file, _)| file == name), "{file_name}");
+                count += 1;
+            }
+        }
+        assert_eq!(count, files.len(), "{folder}");
     }
 }

@@ -187,7 +187,7 @@ mod tests {
                 "10^5", "2×10^5", "5×10^5", "10^6", "2×10^6", "5×10^6", "10^7"
             ]
         );
-        assert_eq!(labels(&ticks(Scale::Log, 1e-9, 1e3, 5)).len(), 4);
+        assert_eq!(labels(&ticks(Scale::Log, 1e-9, 1e3, 5)).len(), 5);
         assert_eq!(labels(&ticks(Scale::Log, 0.1, 50.0, 5)), ["0.1", "1", "10"]);
         // Grid lines at every whole multiple.
         assert_eq!(ticks(Scale::Log, 1.0, 100.0, 5).len(), 19);

@@ -34,6 +34,8 @@ pub enum Command {
     Chart(Chart),
     /// Check a spec and do nothing else
     Check(Check),
+    /// Print the JSON schema of a spec, with which editors complete and check it
+    Schema,
     /// Write a commented spec to start from
     Init(Init),
 }

@@ -3,7 +3,7 @@
 use bogie::{
     evaluate::{Evaluation, warnings::warnings},
     export::{self, curve::Curving, evaluation_json, modes, psd::Spectra},
-    spec::STARTER,
+    spec::{STARTER, Spec, schema},
     track::{MAX_DEGREE, SUPERELEVATION_BASE},
     units::Quantity,
 };
@@ -16,20 +16,33 @@ use super::{
 };
 
 pub fn evaluate(run: &Run) -> Result<Done, Failure> {
-    let input::Named { name, spec, .. } = input::read(&run.source.spec)?;
+    let input::Named {
+        name,
+        spec,
+        warnings: doubts,
+        ..
+    } = input::read(&run.source.spec)?;
     let evaluation = Evaluation::new(&spec.case).map_err(failed)?;
     let warnings = warnings(&spec.case, &evaluation);
     deliver(
         run,
         "evaluate",
         || export::evaluation(&name, &spec.case, &evaluation, &warnings),
-        || evaluation_json::evaluation(&name, &spec.case, &evaluation, &warnings),
+        || {
+            let all = [doubts, warnings.clone()].concat();
+            evaluation_json::evaluation(&name, &spec.case, &evaluation, &all)
+        },
     )?;
     Ok(Done::Complete)
 }
 
 pub fn modes(call: &Modes) -> Result<Done, Failure> {
-    let input::Named { name, spec, .. } = input::read(&call.run.source.spec)?;
+    let input::Named {
+        name,
+        spec,
+        warnings,
+        ..
+    } = input::read(&call.run.source.spec)?;
     let speeds = if call.speeds.is_empty() {
         (1..=10)
             .map(|i| 0.2 * f64::from(i) * spec.case.service.speed)
@@ -45,13 +58,18 @@ pub fn modes(call: &Modes) -> Result<Done, Failure> {
         &call.run,
         "modes",
         || modes.text(&name, &spec.case),
-        || modes.json(&name, &spec.case),
+        || with_warnings(modes.json(&name, &spec.case), &warnings),
     )?;
     Ok(Done::Complete)
 }
 
 pub fn curve(call: &Curve) -> Result<Done, Failure> {
-    let input::Named { name, spec, .. } = input::read(&call.run.source.spec)?;
+    let input::Named {
+        name,
+        spec,
+        warnings,
+        ..
+    } = input::read(&call.run.source.spec)?;
     if let Some(degree) = call.degree
         && !(degree > 0.0 && degree <= MAX_DEGREE)
     {
@@ -65,13 +83,18 @@ pub fn curve(call: &Curve) -> Result<Done, Failure> {
         &call.run,
         "curve",
         || curving.text(&name, &spec.case),
-        || curving.json(&name, &spec.case),
+        || with_warnings(curving.json(&name, &spec.case), &warnings),
     )?;
     Ok(Done::Complete)
 }
 
 pub fn psd(call: &Psd) -> Result<Done, Failure> {
-    let input::Named { name, spec, .. } = input::read(&call.run.source.spec)?;
+    let input::Named {
+        name,
+        spec,
+        warnings,
+        ..
+    } = input::read(&call.run.source.spec)?;
     let spectra = Spectra::new(&spec.case, call.points as usize);
     if call.csv {
         output::write(spectra.csv(), call.run.out.as_deref(), "psd.csv")?;
@@ -81,17 +104,36 @@ pub fn psd(call: &Psd) -> Result<Done, Failure> {
         &call.run,
         "psd",
         || spectra.text(&name, &spec.case),
-        || spectra.json(&name, &spec.case),
+        || with_warnings(spectra.json(&name, &spec.case), &warnings),
     )?;
     Ok(Done::Complete)
 }
 
 pub fn check(call: &Check) -> Result<Done, Failure> {
-    let input::Named { name, .. } = input::read(&call.source.spec)?;
-    output::print(&match call.format {
-        Format::Text => format!("{name}: the spec is in order"),
-        Format::Json => json!({ "name": name, "valid": true }).to_string(),
-    })?;
+    let file = input::open(&call.source.spec)?;
+    let read = Spec::read(&file.bytes);
+    match call.format {
+        Format::Json => {
+            let report = export::check::json(&file.name, &file.text(), &read);
+            let text = serde_json::to_string_pretty(&report).map_err(failed)?;
+            output::print(text + "\n")?;
+        }
+        Format::Text => {
+            if let Ok(spec) = &read {
+                file.show(&spec.doubts);
+                output::print(export::check::text(&file.name, spec))?;
+            }
+        }
+    }
+    match read {
+        Ok(_) => Ok(Done::Complete),
+        Err(mistakes) => Err(file.refuse(&mistakes)),
+    }
+}
+
+pub fn schema() -> Result<Done, Failure> {
+    let text = serde_json::to_string_pretty(&schema::schema()).map_err(failed)?;
+    output::print(text + "\n")?;
     Ok(Done::Complete)
 }
 
@@ -111,6 +153,14 @@ pub fn init(call: &Init) -> Result<Done, Failure> {
     })?;
     eprintln!("wrote {}", call.spec.display());
     Ok(Done::Complete)
+}
+
+/// A result with what is doubtful in its spec.
+pub(super) fn with_warnings(mut result: Value, warnings: &[String]) -> Value {
+    if let Value::Object(object) = &mut result {
+        object.insert("warnings".into(), json!(warnings));
+    }
+    result
 }
 
 pub(super) fn deliver(

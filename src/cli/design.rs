@@ -21,13 +21,18 @@ use bogie::{
 use super::{
     Done, Failure,
     arguments::{Method, Optimize, Pareto, Search, Sensitivity, TableFormat},
-    commands::{deliver, failed, wrong},
+    commands::{deliver, failed, with_warnings, wrong},
     input, interrupt, output,
     progress::Line,
 };
 
 pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
-    let input::Named { name, spec, digest } = input::read(&call.run.source.spec)?;
+    let input::Named {
+        name,
+        spec,
+        digest,
+        warnings: doubts,
+    } = input::read(&call.run.source.spec)?;
     let progress = Line::new();
     let header = header("optimize", &digest);
     let archive = archive(&progress, &call.search, call.run.out.as_deref(), &header)?;
@@ -53,7 +58,10 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
         &call.run,
         "optimize",
         || design_text::design(&name, &result, &spec.demands, matters.as_ref(), &warnings),
-        || design_json::design(&name, &result, &spec, &digest, matters.as_ref(), &warnings),
+        || {
+            let all = [doubts, warnings.clone()].concat();
+            design_json::design(&name, &result, &spec, &digest, matters.as_ref(), &all)
+        },
     )?;
     Ok(if result.met() {
         Done::Complete
@@ -67,6 +75,7 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
         name,
         mut spec,
         digest,
+        warnings,
     } = input::read(&call.source.spec)?;
     if !call.indices.is_empty() {
         spec.front.indices = indices(&call.indices)?;
@@ -105,7 +114,12 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
     deliver_table(
         (call.format, call.out.as_deref(), "pareto"),
         || export::pareto::text(&name, &front),
-        || export::pareto::json(&name, &front, &spec, &digest),
+        || {
+            with_warnings(
+                export::pareto::json(&name, &front, &spec, &digest),
+                &warnings,
+            )
+        },
         || export::pareto::table(&name, &front, &digest),
     )?;
     Ok(if front.points.is_empty() {
@@ -133,7 +147,12 @@ fn indices(names: &[String]) -> Result<Vec<Index>, Failure> {
 }
 
 pub fn sensitivity(call: &Sensitivity) -> Result<Done, Failure> {
-    let input::Named { name, spec, .. } = input::read(&call.source.spec)?;
+    let input::Named {
+        name,
+        spec,
+        warnings,
+        ..
+    } = input::read(&call.source.spec)?;
     if !(0.0..1.0).contains(&call.spread) {
         return Err(wrong(&format!(
             "--spread {}: expected a share from 0 to below 1, such as 0.1",
@@ -174,7 +193,7 @@ pub fn sensitivity(call: &Sensitivity) -> Result<Done, Failure> {
     deliver_table(
         (call.format, call.out.as_deref(), "sensitivity"),
         || export::sensitivity::text(&name, &found),
-        || export::sensitivity::json(&name, &found),
+        || with_warnings(export::sensitivity::json(&name, &found), &warnings),
         || export::sensitivity::table(&found),
     )?;
     Ok(Done::Complete)

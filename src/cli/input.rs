@@ -1,11 +1,12 @@
 //! Reading the spec.
 
 use std::{
+    borrow::Cow,
     io::{IsTerminal, Read},
     path::Path,
 };
 
-use bogie::spec::{MAX_BYTES, Spec};
+use bogie::spec::{Diagnostics, Doubts, MAX_BYTES, Spec, printable};
 
 use sha2::{Digest, Sha256};
 
@@ -17,15 +18,62 @@ pub struct Named {
     pub spec: Spec,
     /// SHA-256 of the spec's text.
     pub digest: String,
+    /// What is doubtful in the spec, a sentence each.
+    pub warnings: Vec<String>,
 }
 
-/// Reads a spec from a file, or from standard input for `-`.
+/// A file before it is read as a spec.
+pub struct File {
+    /// As messages name it.
+    pub shown: String,
+    /// As results name it.
+    pub name: String,
+    pub bytes: Vec<u8>,
+}
+
+/// Reads a spec from a file, or from standard input for `-`. Doubts go to standard error.
 pub fn read(path: &Path) -> Result<Named, Failure> {
+    let file = open(path)?;
+    let spec = Spec::read(&file.bytes).map_err(|mistakes| file.refuse(&mistakes))?;
+    file.show(&spec.doubts);
+    let digest = format!("{:x}", Sha256::digest(&file.bytes));
+    let warnings = spec.doubts.sentences().collect();
+    let name = file.name;
+    Ok(Named {
+        name,
+        spec,
+        digest,
+        warnings,
+    })
+}
+
+impl File {
+    /// The text, as far as it is one.
+    pub fn text(&self) -> Cow<'_, str> {
+        String::from_utf8_lossy(&self.bytes)
+    }
+
+    /// Mistakes as the reason why there is no result.
+    pub fn refuse(&self, mistakes: &Diagnostics) -> Failure {
+        let colour = std::io::stderr().is_terminal();
+        Failure::Invalid(mistakes.render(&self.shown, &self.text(), colour))
+    }
+
+    /// Doubts on standard error.
+    pub fn show(&self, doubts: &Doubts) {
+        let colour = std::io::stderr().is_terminal();
+        eprint!("{}", doubts.render(&self.shown, &self.text(), colour));
+    }
+}
+
+/// Reads a file or standard input, but no more than a spec may have.
+pub fn open(path: &Path) -> Result<File, Failure> {
     let is_stdin = path.as_os_str() == "-";
+    // A file's name may hold what a terminal would obey.
     let shown = if is_stdin {
         "<standard input>".into()
     } else {
-        path.display().to_string()
+        printable(&path.to_string_lossy())
     };
     let cannot = |error: std::io::Error| {
         let help = if path.is_dir() {
@@ -48,14 +96,9 @@ pub fn read(path: &Path) -> Result<Named, Failure> {
         let file = std::fs::File::open(path).map_err(cannot)?;
         file.take(limit).read_to_end(&mut bytes).map_err(cannot)?;
     }
-    let spec = Spec::read(&bytes).map_err(|diagnostics| {
-        let source = String::from_utf8_lossy(&bytes);
-        Failure::Invalid(diagnostics.render(&shown, &source, std::io::stderr().is_terminal()))
-    })?;
     let name = match path.file_stem() {
-        Some(stem) if !is_stdin => stem.to_string_lossy().into_owned(),
+        Some(stem) if !is_stdin => printable(&stem.to_string_lossy()),
         _ => "spec".into(),
     };
-    let digest = format!("{:x}", Sha256::digest(&bytes));
-    Ok(Named { name, spec, digest })
+    Ok(File { shown, name, bytes })
 }

@@ -52,6 +52,7 @@ pub fn run() -> ExitCode {
         Command::Psd(call) => commands::psd(call),
         Command::Chart(call) => chart::chart(call),
         Command::Check(call) => commands::check(call),
+        Command::Schema => commands::schema(),
         Command::Init(call) => commands::init(call),
     };
     match result {

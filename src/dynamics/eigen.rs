@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, SMatrix, linalg::Schur};
 
-use super::LinearSystem;
+use super::{LinearSystem, balance::balance};
 
 /// Why no eigenvalues came out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -78,7 +78,7 @@ pub fn eigenvalues(mut a: DMatrix<f64>) -> Result<Vec<Complex<f64>>, EigenError>
     if !a.iter().all(|x| x.is_finite()) {
         return Err(EigenError::NotFinite);
     }
-    nalgebra::linalg::balancing::balance_parlett_reinsch(&mut a);
+    balance(&mut a);
     // The models' own sizes are known when compiling, which makes them faster.
     let values = match a.nrows() {
         24 => schur_values!(SMatrix::<f64, 24, 24>::from_column_slice(a.as_slice())),

@@ -1,5 +1,6 @@
 //! Equations of motion: the report's models as matrices.
 
+mod balance;
 pub mod curving;
 mod eigen;
 pub mod elimination;

@@ -1,6 +1,7 @@
 //! Results as text, JSON, CSV and Parquet.
 
 mod certificate;
+pub mod check;
 mod cross_checks;
 pub mod curve;
 pub mod design_json;

@@ -36,11 +36,11 @@ pub(super) fn read(
     }
 
     document.numbers(
-        keys::case().filter(|key| key.path != CONICITY),
+        keys::case().filter(|key| key.path != keys::CONICITY),
         &mut case,
         mistakes,
     );
-    if let Some(value) = document.get(CONICITY)
+    if let Some(value) = document.get(keys::CONICITY)
         && let Some(conicity) = mistakes.collect(conicity(value, document))
     {
         case.wheel_rail.conicity = conicity;
@@ -64,7 +64,6 @@ pub(super) fn read(
         }
     }
     document.intervals(keys::RANGES, &mut case, mistakes);
-    trucks_apart(document, &case, mistakes);
     case
 }
 
@@ -86,7 +85,6 @@ pub(super) fn track(
     own.or_else(|| Track::named(names[i]))
 }
 
-const CONICITY: &str = "wheel_rail.conicity";
 const AIR_SPRING: &str = "suspension.secondary.air_spring.";
 
 /// λ: the report's table ends at 0.25, but with explicit coefficients nothing is read from it.
@@ -137,28 +135,5 @@ fn missing(
             expected: format!("missing: {}", absent.join(", ")),
             help: help.take(),
         });
-    }
-}
-
-/// The inner wheelsets of the two trucks must not meet.
-fn trucks_apart(document: &Document, case: &Case, mistakes: &mut Mistakes) {
-    let (b, l_s) = (
-        case.vehicle.truck.half_wheelbase,
-        case.vehicle.carbody.half_truck_spacing,
-    );
-    let given = [
-        "vehicle.truck.half_wheelbase",
-        "vehicle.carbody.half_truck_spacing",
-    ];
-    let value = given.iter().find_map(|path| document.get(path));
-    if let Some(value) = value.filter(|_| b >= l_s) {
-        mistakes.push(
-            Diagnostic::at(
-                value.span(),
-                format!("the trucks overlap: b = {b:.3} m, l_s = {l_s:.3} m"),
-                "expected `half_wheelbase` below `half_truck_spacing`",
-            )
-            .help("both are half of the distance between axles and between centre pins".to_owned()),
-        );
     }
 }

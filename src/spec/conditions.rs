@@ -9,12 +9,12 @@ use std::collections::BTreeMap;
 use toml::de::DeValue;
 
 use super::demands::demands;
-use super::diagnostic::{Collect, Diagnostic};
-use super::document::Document;
+use super::diagnostic::{Collect, Diagnostic, word};
+use super::document::{Document, bad_name};
 use super::keys::{self, Key};
 use super::value::number;
 use crate::case::Case;
-use crate::index::{Demands, Index};
+use crate::index::Demands;
 use crate::track::Track;
 
 /// An operating condition beside the nominal one.
@@ -50,20 +50,12 @@ fn key(path: &str) -> Option<&'static Key<Case>> {
     keys::case().find(|key| key.path == path)
 }
 
-/// Paths of what a condition may say.
-fn paths() -> Vec<&'static str> {
-    let mut paths = vec![keys::TRACK];
-    paths.extend(keys::case().map(|key| key.path));
-    paths.extend(Index::ALL.map(Index::path));
-    paths
-}
-
-/// Reads `[conditions]`.
-pub(super) fn read(
-    document: &Document,
+/// Reads `[conditions]`; beside each condition what it says, by path.
+pub(super) fn read<'a>(
+    document: &Document<'a>,
     tracks: &BTreeMap<String, Track>,
     mistakes: &mut Vec<Diagnostic>,
-) -> Vec<Condition> {
+) -> Vec<(Condition, Document<'a>)> {
     let Some(value) = document.get(keys::CONDITIONS) else {
         return Vec::new();
     };
@@ -80,12 +72,13 @@ pub(super) fn read(
     };
     let mut conditions = Vec::new();
     for (name, value) in table {
+        mistakes.extend(bad_name(name));
         let DeValue::Table(inner) = value.get_ref() else {
-            let path = format!("conditions.{}", name.get_ref());
+            let path = format!("conditions.{}", word(name.get_ref()));
             mistakes.push(table_expected(value.span(), &path));
             continue;
         };
-        let inner = Document::new(inner, &paths(), mistakes);
+        let inner = Document::new(inner, &keys::condition_paths(), mistakes);
         let mut condition = Condition {
             name: name.get_ref().to_string(),
             values: Vec::new(),
@@ -100,7 +93,7 @@ pub(super) fn read(
                     .extend(mistakes.collect(read).map(|si| (key.path, si)));
             }
         }
-        conditions.push(condition);
+        conditions.push((condition, inner));
     }
     conditions
 }

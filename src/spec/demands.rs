@@ -66,7 +66,16 @@ pub(super) fn objective(document: &Document, mistakes: &mut Mistakes) -> Vec<Goa
         (keys::MINIMIZE, Sense::AtMost),
     ] {
         if let Some(value) = document.get(path) {
-            goals.extend(mistakes.collect(goals_of(value, sense)).unwrap_or_default());
+            for goal in mistakes.collect(goals_of(value, sense)).unwrap_or_default() {
+                if goals.iter().any(|g: &Goal| g.index == goal.index) {
+                    mistakes.push(Diagnostic::at(
+                        value.span(),
+                        format!("`{}` stands twice", goal.index.name()),
+                        "expected it once; to count more it takes a weight: { degree_curve = 2.0 }",
+                    ));
+                }
+                goals.push(goal);
+            }
         }
     }
     goals
@@ -79,11 +88,11 @@ fn goals_of(value: &Value, sense: Sense) -> Result<Vec<Goal>, Diagnostic> {
         if index.sense() == sense {
             return Ok(Goal { index, weight });
         }
-        let verb = match index.sense() {
-            Sense::AtLeast => "maximize",
-            Sense::AtMost => "minimize",
+        let (better, verb) = match index.sense() {
+            Sense::AtLeast => ("larger", "maximize"),
+            Sense::AtMost => ("smaller", "minimize"),
         };
-        let message = format!("`{}` is not better so", index.name());
+        let message = format!("`{}` is better the {better} it is", index.name());
         Err(Diagnostic::at(
             name.span(),
             message,

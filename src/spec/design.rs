@@ -2,7 +2,7 @@
 
 use toml::de::DeValue;
 
-use super::diagnostic::{Collect, Diagnostic};
+use super::diagnostic::{Collect, Diagnostic, word};
 use super::document::{Document, Value};
 use super::keys::{self, Range};
 use super::value::{choice, interval, list, number, whole};
@@ -89,7 +89,7 @@ impl DesignSpace {
 }
 
 /// Names of [`Order`].
-const ORDERS: [&str; 2] = ["sequential", "joint"];
+pub(super) const ORDERS: [&str; 2] = ["sequential", "joint"];
 
 /// Reads `[design]`.
 pub(super) fn read(document: &Document, mistakes: &mut Vec<Diagnostic>) -> DesignSpace {
@@ -142,7 +142,7 @@ fn freedom(parameter: Parameter, value: &Value) -> Result<Freedom, Diagnostic> {
                 _ => "expected { tied_to = \"primary_lateral_stiffness\", ratio = 0.5 }",
             };
             if let Some((key, _)) = table.iter().find(|(k, _)| !known.contains(&&**k.get_ref())) {
-                let message = format!("unknown key `{}`", key.get_ref());
+                let message = format!("unknown key `{}`", word(key.get_ref()));
                 return Err(Diagnostic::at(key.span(), message, example));
             }
             match (entry("choices"), entry("tied_to"), entry("ratio")) {
@@ -152,7 +152,13 @@ fn freedom(parameter: Parameter, value: &Value) -> Result<Freedom, Diagnostic> {
                     "expected bounds: choices are for the wheel profile",
                 )),
                 (Some((_, choices)), None, None) => {
-                    list(choices, "choices", quantity, range, 1).map(Freedom::Choices)
+                    let values = list(choices, "choices", quantity, range, 1)?;
+                    if (1..values.len()).any(|i| values[..i].contains(&values[i])) {
+                        let expected = "expected every profile once";
+                        let message = "`choices` has a value twice";
+                        return Err(Diagnostic::at(choices.span(), message, expected));
+                    }
+                    Ok(Freedom::Choices(values))
                 }
                 (None, Some((_, to)), ratio) => {
                     let names = Parameter::ALL.map(Parameter::name);

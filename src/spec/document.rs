@@ -6,7 +6,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::Diagnostic;
+use super::diagnostic::{Diagnostic, MOST, printable, word};
 
 /// A value of the document.
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
@@ -44,6 +44,9 @@ impl<'a> Document<'a> {
         mistakes: &mut Vec<Diagnostic>,
     ) {
         for (name, value) in table {
+            if mistakes.len() >= MOST {
+                return;
+            }
             let path = join(parent, name.get_ref());
             let inside = format!("{path}.");
             if paths.contains(&path.as_str()) {
@@ -60,7 +63,7 @@ impl<'a> Document<'a> {
                     ));
                 }
             } else {
-                mistakes.push(unknown(name, parent, paths));
+                mistakes.push(unknown(name, value, parent, paths));
             }
         }
     }
@@ -74,14 +77,23 @@ fn join(parent: &str, name: &str) -> String {
     }
 }
 
-fn unknown(name: &Spanned<std::borrow::Cow<'_, str>>, parent: &str, paths: &[&str]) -> Diagnostic {
+fn unknown(
+    name: &Spanned<std::borrow::Cow<'_, str>>,
+    value: &Value,
+    parent: &str,
+    paths: &[&str],
+) -> Diagnostic {
     let written = name.get_ref();
     let inside = join(parent, "");
-    let mut siblings: Vec<&str> = paths
-        .iter()
-        .filter_map(|path| path.strip_prefix(&inside)?.split('.').next())
-        .collect();
-    siblings.dedup();
+    let mut siblings: Vec<&str> = Vec::new();
+    for path in paths {
+        let inside = path.strip_prefix(&inside);
+        if let Some(sibling) = inside.and_then(|rest| rest.split('.').next())
+            && !siblings.contains(&sibling)
+        {
+            siblings.push(sibling);
+        }
+    }
     let elsewhere: Vec<String> = paths
         .iter()
         .filter_map(|path| path.rsplit_once('.'))
@@ -95,18 +107,33 @@ fn unknown(name: &Spanned<std::borrow::Cow<'_, str>>, parent: &str, paths: &[&st
     } else {
         format!("`{written}` is a key of {}", elsewhere.join(" and "))
     };
-    let (message, expected) = if parent.is_empty() {
-        (
-            format!("unknown table `{written}`"),
-            "not a table of a spec".to_owned(),
-        )
-    } else {
-        (
-            format!("unknown key `{written}`"),
-            format!("not a key of [{parent}]"),
-        )
+    let written = word(written);
+    let is_table = matches!(value.get_ref(), DeValue::Table(_));
+    let what = if is_table { "table" } else { "key" };
+    let message = format!("unknown {what} `{written}`");
+    let elsewhere_a_table = super::keys::paths()
+        .iter()
+        .any(|path| path.starts_with(&format!("{written}.")));
+    let expected = match (parent, is_table) {
+        ("", true) if elsewhere_a_table => "not a table of a condition".to_owned(),
+        ("", true) => "not a table of a spec".to_owned(),
+        ("", false) => "every key stands in a table".to_owned(),
+        _ => format!("not a {what} of [{parent}]"),
     };
     Diagnostic::at(name.span(), message, expected).help(help)
+}
+
+/// A name of the author's that results could not carry.
+pub(super) fn bad_name(name: &Spanned<std::borrow::Cow<'_, str>>) -> Option<Diagnostic> {
+    const LONGEST: usize = 60;
+    let text = name.get_ref();
+    let is_plain = printable(text) == **text && !text.trim().is_empty();
+    (!is_plain || text.chars().count() > LONGEST).then(|| {
+        let message = format!("`{}` cannot be a name", word(text));
+        let expected =
+            format!("expected a name of at most {LONGEST} characters, none of them invisible");
+        Diagnostic::at(name.span(), message, expected)
+    })
 }
 
 /// The candidate that `written` most likely stands for.
@@ -114,6 +141,10 @@ pub(super) fn nearest<'n>(
     written: &str,
     candidates: impl Iterator<Item = &'n str>,
 ) -> Option<&'n str> {
+    // No name is that long, and likeness takes the product of the lengths.
+    if written.len() > 80 {
+        return None;
+    }
     let written = written.to_lowercase().replace('-', "_");
     candidates
         .map(|name| {

@@ -14,18 +14,21 @@
 
 mod case;
 mod conditions;
+mod consistency;
 mod demands;
 mod design;
 mod diagnostic;
 mod document;
 pub mod keys;
 mod read;
+mod scale;
+pub mod schema;
 mod tracks;
 mod value;
 
 pub use conditions::Condition;
 pub use demands::{FRONT_POINTS, Front, Goal};
 pub use design::{DesignSpace, Freedom, Interval, Order};
-pub use diagnostic::{Diagnostic, Diagnostics};
+pub use diagnostic::{Diagnostic, Diagnostics, Doubts, printable};
 pub use keys::inputs_si;
 pub use read::{MAX_BYTES, STARTER, Spec};

@@ -2,11 +2,12 @@
 
 use toml::de::DeTable;
 
-use super::diagnostic::Diagnostic;
+use super::consistency::{Situation, contradictions, doubts};
+use super::diagnostic::{Diagnostic, MOST};
 use super::document::Document;
 use super::{
-    Condition, DesignSpace, Diagnostics, Front, Goal, case, conditions, demands, design, keys,
-    tracks,
+    Condition, DesignSpace, Diagnostics, Doubts, Front, Goal, case, conditions, demands, design,
+    keys, tracks,
 };
 use crate::case::Case;
 use crate::index::Demands;
@@ -32,6 +33,8 @@ pub struct Spec {
     pub conditions: Vec<Condition>,
     /// What a front trades off.
     pub front: Front,
+    /// What is lawful in it but hardly meant.
+    pub doubts: Doubts,
 }
 
 impl Spec {
@@ -42,20 +45,16 @@ impl Spec {
     /// All mistakes found; those of TOML syntax hide the rest.
     pub fn parse(source: &str) -> Result<Self, Diagnostics> {
         let (root, errors) = DeTable::parse_recoverable(source);
-        let mut mistakes: Vec<Diagnostic> = errors
-            .iter()
-            .map(|error| Diagnostic {
-                span: error.span(),
-                message: error.message().into(),
-                expected: "no valid TOML from here on".into(),
-                help: error
-                    .message()
-                    .contains("quoted")
-                    .then(|| "a value with its unit stands in quotes: mass = \"2500 slug\"".into()),
-            })
-            .collect();
+        let mut mistakes: Vec<Diagnostic> = errors.iter().take(MOST).map(syntax).collect();
         if !mistakes.is_empty() {
             return Err(Diagnostics::new(mistakes));
+        }
+        if root.get_ref().is_empty() {
+            return Err(refuse(
+                "the spec is empty".into(),
+                "expected at least a [vehicle]",
+                Some("`bogie init` writes a spec to start from"),
+            ));
         }
         let document = Document::new(root.get_ref(), &keys::paths(), &mut mistakes);
         let own_tracks = tracks::read(&document, &mut mistakes);
@@ -65,18 +64,22 @@ impl Spec {
         let front = demands::front(&document, &mut mistakes);
         let demands = demands::demands(&document, &mut mistakes);
         let conditions = conditions::read(&document, &own_tracks, &mut mistakes);
-        if mistakes.is_empty() {
-            Ok(Self {
-                case,
-                design,
-                objective,
-                demands,
-                conditions,
-                front,
-            })
-        } else {
-            Err(Diagnostics::new(mistakes))
+        let situations = Situation::all(&case, &demands, &document, &conditions, &mistakes);
+        contradictions(&situations, &design, &front, &mut mistakes);
+        if !mistakes.is_empty() {
+            return Err(Diagnostics::new(mistakes));
         }
+        let mut spec = Self {
+            case,
+            design,
+            objective,
+            demands,
+            conditions: conditions.iter().map(|(c, _)| c.clone()).collect(),
+            front,
+            doubts: Doubts::default(),
+        };
+        spec.doubts = doubts(&spec, &document, &situations);
+        Ok(spec)
     }
 
     /// Reads a spec from a file's bytes.
@@ -85,19 +88,9 @@ impl Spec {
     ///
     /// More than [`MAX_BYTES`], text that is not UTF-8, or the mistakes of [`Spec::parse`].
     pub fn read(bytes: &[u8]) -> Result<Self, Diagnostics> {
-        let refuse = |message: String, expected: &str| {
-            Diagnostics::new(vec![Diagnostic {
-                span: None,
-                message,
-                expected: expected.into(),
-                help: None,
-            }])
-        };
         if bytes.len() > MAX_BYTES {
-            return Err(refuse(
-                format!("the file has {} bytes", bytes.len()),
-                "a spec has at most 1 MiB",
-            ));
+            let message = "the file is larger than any spec".into();
+            return Err(refuse(message, "a spec has at most 1 MiB", None));
         }
         let source = std::str::from_utf8(bytes).map_err(|error| {
             let offset = error.valid_up_to();
@@ -105,9 +98,40 @@ impl Spec {
             refuse(
                 format!("the file is not UTF-8 text: byte {offset}, in line {line}"),
                 "save the spec with UTF-8 encoding",
+                None,
             )
         })?;
         Self::parse(source)
+    }
+}
+
+/// What is wrong with a file as a whole.
+fn refuse(message: String, expected: &str, help: Option<&str>) -> Diagnostics {
+    Diagnostics::new(vec![Diagnostic {
+        span: None,
+        message,
+        expected: expected.into(),
+        help: help.map(str::to_owned),
+    }])
+}
+
+/// A mistake of TOML's syntax.
+fn syntax(error: &toml::de::Error) -> Diagnostic {
+    let message = error.message();
+    let (expected, help) = if message == "duplicate key" {
+        let help = "every key and every table stands once; put its keys together";
+        ("here a second time", Some(help))
+    } else if message.contains("quoted") {
+        let help = "a value with its unit stands in quotes: mass = \"2500 slug\"";
+        ("no valid TOML from here on", Some(help))
+    } else {
+        ("no valid TOML from here on", None)
+    };
+    Diagnostic {
+        span: error.span(),
+        message: message.into(),
+        expected: expected.into(),
+        help: help.map(str::to_owned),
     }
 }
 

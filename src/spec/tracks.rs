@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use toml::de::{DeTable, DeValue};
 
-use super::diagnostic::{Collect, Diagnostic};
-use super::document::{Document, Value, nearest};
+use super::diagnostic::{Collect, Diagnostic, word};
+use super::document::{Document, Value, bad_name, nearest};
 use super::keys::{self, Range};
 use super::value::{choice, list, number};
 use crate::track::{CORNER_WAVENUMBER, Spectrum, Track};
@@ -14,14 +14,31 @@ use crate::units::Quantity;
 type Mistakes = Vec<Diagnostic>;
 
 /// Keys of a track in the FRA form, and of one given by points.
-const FORM: [&str; 5] = [
+pub(super) const FORM: [&str; 5] = [
     "form",
     "vertical_roughness",
     "alignment_roughness",
     "corner_wavenumber",
     "crosslevel_corner_wavenumber",
 ];
-const POINTS: [&str; 3] = ["vertical", "alignment", "crosslevel"];
+pub(super) const POINTS: [&str; 3] = ["vertical", "alignment", "crosslevel"];
+
+/// The key of the form that may be left out.
+pub(super) const OPTIONAL: &str = "corner_wavenumber";
+/// Columns of a spectrum given by points.
+pub(super) const COLUMNS: [(&str, Quantity); 2] = [
+    ("wavenumber", Quantity::Wavenumber),
+    ("density", Quantity::SpectralDensity),
+];
+
+/// Kind of quantity of a key in the FRA form.
+pub(super) fn form_quantity(name: &str) -> Quantity {
+    if name.ends_with("roughness") {
+        Quantity::Roughness
+    } else {
+        Quantity::Wavenumber
+    }
+}
 
 /// Reads `[tracks]`.
 pub(super) fn read(document: &Document, mistakes: &mut Mistakes) -> BTreeMap<String, Track> {
@@ -38,6 +55,7 @@ pub(super) fn read(document: &Document, mistakes: &mut Mistakes) -> BTreeMap<Str
     };
     let mut read = BTreeMap::new();
     for (name, value) in tracks {
+        mistakes.extend(bad_name(name));
         let text = name.get_ref();
         if Track::named(text).is_some() {
             mistakes.push(Diagnostic::at(
@@ -49,8 +67,8 @@ pub(super) fn read(document: &Document, mistakes: &mut Mistakes) -> BTreeMap<Str
         let DeValue::Table(table) = value.get_ref() else {
             mistakes.push(Diagnostic::at(
                 value.span(),
-                format!("`tracks.{text}` is a table"),
-                format!("expected a table [tracks.{text}]"),
+                format!("`tracks.{}` is a table", word(text)),
+                format!("expected a table [tracks.{}]", word(text)),
             ));
             continue;
         };
@@ -101,14 +119,10 @@ impl Reader<'_> {
             mistakes.collect(choice(value, "form", &["fra"]));
         }
         let values = FORM[1..].iter().map(|&name| {
-            let quantity = if name.ends_with("roughness") {
-                Quantity::Roughness
-            } else {
-                Quantity::Wavenumber
-            };
+            let quantity = form_quantity(name);
             match self.get(name) {
                 Some(value) => mistakes.collect(number(value, name, quantity, Range::Positive)),
-                None if name == "corner_wavenumber" => Some(CORNER_WAVENUMBER),
+                None if name == OPTIONAL => Some(CORNER_WAVENUMBER),
                 None => {
                     mistakes.push(self.absent(name, quantity.expectation()));
                     None
@@ -139,8 +153,8 @@ impl Reader<'_> {
             place: value.span(),
             table,
         };
-        points.only(&["wavenumber", "density"], mistakes);
-        let mut column = |name: &str, quantity| {
+        points.only(&COLUMNS.map(|(name, _)| name), mistakes);
+        let mut column = |(name, quantity): (&str, Quantity)| {
             if let Some(value) = points.get(name) {
                 mistakes.collect(list(value, name, quantity, Range::Positive, 2))
             } else {
@@ -148,8 +162,7 @@ impl Reader<'_> {
                 None
             }
         };
-        let wavenumber = column("wavenumber", Quantity::Wavenumber);
-        let density = column("density", Quantity::SpectralDensity);
+        let [wavenumber, density] = COLUMNS.map(&mut column);
         let (wavenumber, density) = (wavenumber?, density?);
         if wavenumber.len() != density.len() {
             mistakes.push(Diagnostic::at(
@@ -183,7 +196,7 @@ impl Reader<'_> {
     }
 
     fn absent(&self, name: &str, expected: String) -> Diagnostic {
-        let message = format!("`{}` has no `{name}`", self.name);
+        let message = format!("`{}` has no `{name}`", word(self.name));
         Diagnostic::at(self.place.clone(), message, expected)
     }
 
@@ -192,7 +205,7 @@ impl Reader<'_> {
         for (key, _) in self.table {
             let written = key.get_ref();
             if !names.contains(&**written) {
-                let message = format!("unknown key `{written}`");
+                let message = format!("unknown key `{}`", word(written));
                 let expected = format!("expected {}", allowed.join(", "));
                 let near = nearest(written, allowed.iter().copied());
                 mistakes.push(

@@ -2,10 +2,10 @@
 
 use toml::de::DeValue;
 
-use super::Interval;
-use super::diagnostic::{Collect, Diagnostic};
+use super::diagnostic::{Collect, Diagnostic, word};
 use super::document::{Document, Value, nearest};
 use super::keys::{Key, Range};
+use super::{Interval, scale};
 use crate::units::Quantity;
 
 type Read<T> = Result<T, Diagnostic>;
@@ -29,6 +29,14 @@ pub(super) fn number(value: &Value, name: &str, quantity: Quantity, range: Range
     if !si.is_finite() {
         return Err(mistake(format!("`{name}` is not a finite number")));
     }
+    if range.contains(si) && !scale::is_in_scale(si, quantity) {
+        let sizes = scale::in_words(quantity, range);
+        return Err(Diagnostic::at(
+            value.span(),
+            format!("`{name}` is out of all scale"),
+            format!("expected {} {sizes}", quantity.with_article()),
+        ));
+    }
     if !range.contains(si) {
         let bounds = range.in_words(quantity);
         return Err(Diagnostic::at(
@@ -43,6 +51,7 @@ pub(super) fn number(value: &Value, name: &str, quantity: Quantity, range: Range
 fn plain(value: &DeValue) -> Option<f64> {
     match value {
         DeValue::Float(float) => float.as_str().parse().ok(),
+        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
         DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
             .ok()
             .map(|i| i as f64),
@@ -107,6 +116,9 @@ pub(super) fn list(
     }
 }
 
+/// Names that a message lists beside the one that is wrong.
+const FEW: usize = 3;
+
 /// The index of one of `choices`.
 pub(super) fn choice(value: &Value, name: &str, choices: &[&str]) -> Read<usize> {
     let written = value.get_ref().as_str();
@@ -114,14 +126,19 @@ pub(super) fn choice(value: &Value, name: &str, choices: &[&str]) -> Read<usize>
         .and_then(|text| choices.iter().position(|choice| *choice == text))
         .ok_or_else(|| {
             let message = match written {
-                Some(text) => format!("`{name}` cannot be \"{text}\""),
+                Some(text) => format!("`{name}` cannot be \"{}\"", word(text)),
                 None => format!("`{name}` is a name in quotes"),
             };
             let names: Vec<String> = choices.iter().map(|c| format!("\"{c}\"")).collect();
             let near = written.and_then(|text| nearest(text, choices.iter().copied()));
-            let expected = format!("expected {}", names.join(" or "));
-            Diagnostic::at(value.span(), message, expected)
-                .help(near.map(|near| format!("did you mean \"{near}\"?")))
+            let near = near.map(|near| format!("did you mean \"{near}\"?"));
+            let known = format!("known: {}", names.join(", "));
+            let (expected, help) = if choices.len() <= FEW {
+                (format!("expected {}", names.join(" or ")), near)
+            } else {
+                ("not a known name".to_owned(), near.or(Some(known)))
+            };
+            Diagnostic::at(value.span(), message, expected).help(help)
         })
 }
 

@@ -8,6 +8,9 @@ pub enum UnitError {
     /// No number at the beginning.
     #[error("no number at the beginning of `{0}`")]
     NoNumber(String),
+    /// More text than any value needs, bytes.
+    #[error("a value has at most {0} characters")]
+    TooLong(usize),
     /// A number too large for `f64`.
     #[error("`{0}` is not a finite number")]
     NotFinite(String),

@@ -23,7 +23,19 @@ pub struct Measure<'a> {
 }
 
 /// Longest value that is read, bytes. It also bounds the depth of parentheses.
-const LONGEST: usize = 100;
+pub const LONGEST: usize = 100;
+
+/// A regular expression for values with units, in the dialect of JSON Schema (ECMA-262).
+///
+/// Every value that can be read matches; without `negative` every one above zero. Whether brackets
+/// close and the dimension is right it cannot tell.
+pub fn pattern(negative: bool) -> String {
+    let sign = if negative { r"[+\-]?" } else { r"\+?" };
+    let number = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+\-]?[0-9]+)?";
+    let between = r"(?:[()\s*·⋅/]|\^-?[1-4]|⁻?[¹²³⁴])";
+    let symbol = symbol::alternatives();
+    format!(r"^\s*{sign}{number}\s*{between}*(?:{symbol})(?:{between}+(?:{symbol}))*{between}*$")
+}
 
 impl Unit {
     const ONE: Self = Self {
@@ -39,7 +51,7 @@ impl Unit {
     /// An unknown symbol, or not an expression.
     pub fn parse(text: &str) -> Result<Self, UnitError> {
         if text.len() > LONGEST {
-            return Err(UnitError::Syntax(text.chars().take(20).collect()));
+            return Err(UnitError::TooLong(LONGEST));
         }
         let mut parser = Parser { rest: text.trim() };
         let unit = parser.product()?;
@@ -66,10 +78,13 @@ impl<'a> Measure<'a> {
     /// No number, a number that is not finite, or a unit that cannot be read.
     pub fn parse(text: &'a str) -> Result<Self, UnitError> {
         let text = text.trim();
+        if text.len() > LONGEST {
+            return Err(UnitError::TooLong(LONGEST));
+        }
         let (digits, label) = text.split_at(number_length(text));
         let number: f64 = digits
             .parse()
-            .map_err(|_| UnitError::NoNumber(text.chars().take(LONGEST).collect()))?;
+            .map_err(|_| UnitError::NoNumber(text.to_owned()))?;
         let label = label.trim_start();
         let unit = if label.is_empty() {
             Unit::ONE
@@ -115,6 +130,9 @@ fn number_length(text: &str) -> usize {
     end
 }
 
+/// What a power without `^` begins with.
+const RAISED: [char; 5] = ['⁻', '¹', '²', '³', '⁴'];
+
 struct Parser<'a> {
     rest: &'a str,
 }
@@ -123,12 +141,19 @@ impl Parser<'_> {
     fn product(&mut self) -> Result<Unit, UnitError> {
         let mut unit = self.factor()?;
         loop {
-            self.rest = self.rest.trim_start();
-            let n = match self.rest.chars().next() {
-                None | Some(')') => return Ok(unit),
+            let apart = self.rest.trim_start();
+            let n = match apart.chars().next() {
+                None | Some(')') => {
+                    self.rest = apart;
+                    return Ok(unit);
+                }
                 Some('/') => -1,
+                Some('*' | '·' | '⋅' | '(') => 1,
+                // `m1` and `ft^2lbf` are no products.
+                Some(_) if apart.len() == self.rest.len() => return Err(self.unexpected()),
                 Some(_) => 1,
             };
+            self.rest = apart;
             self.rest = self
                 .rest
                 .strip_prefix(['/', '*', '·', '⋅'])
@@ -176,22 +201,22 @@ impl Parser<'_> {
 
     /// Exponent after a factor, of one digit; 1 where none is written.
     fn power(&mut self) -> Result<i32, UnitError> {
+        let is_raised = self.rest.starts_with(RAISED);
         let (negative, rest) = if let Some(rest) = self.rest.strip_prefix('^') {
             let minus = rest.strip_prefix('-');
             (minus.is_some(), minus.unwrap_or(rest))
-        } else if let Some(rest) = self.rest.strip_prefix('⁻') {
-            (true, rest)
-        } else if self.rest.starts_with(['¹', '²', '³', '⁴']) {
-            (false, self.rest)
+        } else if is_raised {
+            let minus = self.rest.strip_prefix('⁻');
+            (minus.is_some(), minus.unwrap_or(self.rest))
         } else {
             return Ok(1);
         };
         let mut chars = rest.chars();
-        let power = match chars.next() {
-            Some('1' | '¹') => 1,
-            Some('2' | '²') => 2,
-            Some('3' | '³') => 3,
-            Some('4' | '⁴') => 4,
+        let power = match (chars.next(), is_raised) {
+            (Some('1'), false) | (Some('¹'), true) => 1,
+            (Some('2'), false) | (Some('²'), true) => 2,
+            (Some('3'), false) | (Some('³'), true) => 3,
+            (Some('4'), false) | (Some('⁴'), true) => 4,
             _ => return Err(self.unexpected()),
         };
         if chars.as_str().starts_with(|c: char| c.is_ascii_digit()) {

@@ -20,6 +20,6 @@ pub mod us;
 
 pub use dimension::Dimension;
 pub use error::UnitError;
-pub use expression::{Measure, Unit};
+pub use expression::{LONGEST, Measure, Unit, pattern};
 pub use quantity::{DisplayUnit, Quantity};
 pub use range::Range;

@@ -33,8 +33,8 @@ impl Range {
     pub fn in_words(self, quantity: Quantity) -> String {
         let display = |si: f64| {
             let unit = quantity.si();
-            // Twelve digits, lest 25° turn into 24.999999999999996°.
-            let value = (unit.of(si) * 1e12).round() / 1e12;
+            // Rounded, lest 25° turn into 24.999999999999996°.
+            let value = (unit.of(si) * 1e4).round() / 1e4;
             format!("{value} {}", unit.label).trim_end().to_owned()
         };
         match self {

@@ -88,6 +88,16 @@ pub(super) fn find(symbol: &str) -> Option<(f64, Dimension)> {
     prefixable.then_some((factor * size, dimension))
 }
 
+/// Symbols with and without prefixes as alternatives of a regular expression.
+pub(super) fn alternatives() -> String {
+    let names = |prefixable| {
+        let rows = SYMBOLS.iter().filter(move |row| row.3 == prefixable);
+        rows.map(|row| row.0).collect::<Vec<_>>().join("|")
+    };
+    let prefixes: String = PREFIXES.iter().map(|(prefix, _)| prefix).collect();
+    format!("{}|[{prefixes}]?(?:{})", names(false), names(true))
+}
+
 /// The unit that the author of an unknown symbol may have meant.
 pub(super) fn nearest(symbol: &str) -> Option<&'static str> {
     let lower = symbol.to_lowercase();

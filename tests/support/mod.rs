@@ -84,3 +84,25 @@ pub fn assert_ratio(what: &str, ours: f64, theirs: f64, tolerance: f64) {
         "{what}: {ours} against {theirs}, ratio {ratio}, tolerance {tolerance}"
     );
 }
+
+/// Names and bytes of the specs in a folder of `problems/`, sorted; "" for `problems/` itself.
+pub fn problem_files(folder: &str) -> Vec<(String, Vec<u8>)> {
+    let folder = format!("{}/problems/{folder}", env!("CARGO_MANIFEST_DIR"));
+    let entries = std::fs::read_dir(&folder).expect(&folder);
+    let mut files: Vec<(String, Vec<u8>)> = entries
+        .map(|entry| entry.expect("an entry of a folder").path())
+        .filter(|path| {
+            path.extension()
+                .is_some_and(|extension| extension == "toml")
+        })
+        .map(|path| {
+            let name = path.file_name().expect("a file").to_string_lossy();
+            (
+                name.into_owned(),
+                std::fs::read(&path).expect("a readable file"),
+            )
+        })
+        .collect();
+    files.sort();
+    files
+}

@@ -29,6 +29,10 @@ pub(super) fn curves(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Evalu
             limits.and_then(|l| l.slip),
         ),
     ] {
+        // No limit in any curve: radii below half of the 100-ft chord have no degree.
+        if !degree.is_finite() {
+            continue;
+        }
         list.push(CrossCheck {
             name: name.into(),
             equation,

@@ -6,6 +6,9 @@ use super::key::{Key, key};
 use crate::case::Case;
 use crate::wheel_rail::CONICITY_MAX;
 
+/// λ, whose range depends on which coefficients are given.
+pub(in crate::spec) const CONICITY: &str = "wheel_rail.conicity";
+
 #[rustfmt::skip]
 pub(super) static WHEEL_RAIL: &[Key<Case>] = &[
     key!("wheel_rail.conicity", "λ", Dimensionless, PositiveUpTo(CONICITY_MAX), Required, "(equivalent) conicity of the wheel tread", wheel_rail.conicity),

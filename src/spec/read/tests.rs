@@ -332,7 +332,7 @@ fn files_that_are_no_text_are_refused() {
     let error = Spec::read(b"[vehicle]\nbase = \"\xff\"").unwrap_err();
     assert!(error.to_string().contains("byte 18, in line 2"), "{error}");
     let error = Spec::read(&vec![b' '; MAX_BYTES + 1]).unwrap_err();
-    assert!(error.to_string().contains("1048577 bytes"), "{error}");
+    assert!(error.to_string().contains("at most 1 MiB"), "{error}");
 }
 
 #[test]

@@ -91,6 +91,9 @@ fn what_is_wrong_is_said() {
         (Q::Damping, "3 N s/", "cannot read the unit from `the end` on", Some("write units like `lbf s/ft`, `kg m^2` or `m^2/(rad/m)`")),
         (Q::Damping, "3 N s/(m", "cannot read the unit from `the end` on", Some("write units like `lbf s/ft`, `kg m^2` or `m^2/(rad/m)`")),
         (Q::Damping, "3 N^22", "cannot read the unit from `^22` on", Some("write units like `lbf s/ft`, `kg m^2` or `m^2/(rad/m)`")),
+        (Q::Length, "3 m^¹", "cannot read the unit from `^¹` on", Some("write units like `lbf s/ft`, `kg m^2` or `m^2/(rad/m)`")),
+        (Q::Length, "3 m1", "cannot read the unit from `1` on", Some("write units like `lbf s/ft`, `kg m^2` or `m^2/(rad/m)`")),
+        (Q::Mass, &format!("1{} kg", "0".repeat(100)), "a value has at most 100 characters", None),
         (Q::Dimensionless, "0.05", "a dimensionless value is a plain number, without quotes", None),
     ] {
         let error = quantity.parse(text).unwrap_err();

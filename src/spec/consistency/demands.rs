@@ -1,0 +1,79 @@
+//! Demands that ask for too little, or for what nothing within the bounds can give.
+
+use super::contradictions::design_space_end;
+use super::situation::{Situation, shown};
+use crate::index::Index;
+use crate::spec::DesignSpace;
+use crate::spec::diagnostic::Diagnostic;
+use crate::units::Quantity;
+use crate::vehicle::GRAVITY;
+
+/// Doubts about requirements and limits in one condition.
+pub fn odd_demands(situation: &Situation, design: &DesignSpace, doubts: &mut Vec<Diagnostic>) {
+    let suffix = situation.suffix();
+    let case = &situation.case;
+    if let Some(bound) = situation.demands.get(Index::CriticalSpeed)
+        && bound < case.service.speed
+        && let Some(place) = situation.place(&[Index::CriticalSpeed.path(), "service.speed"])
+    {
+        let [bound, speed] = [bound, case.service.speed].map(|v| shown(v, Quantity::Speed));
+        doubts.push(
+            Diagnostic::at(
+                place,
+                format!(
+                    "the critical speed asked for, {bound}, is below the operating speed{suffix}"
+                ),
+                format!("{speed} is run: the vehicle may hunt there"),
+            )
+            .help("a vehicle that hunts has no stationary lateral response either".to_owned()),
+        );
+    }
+    let clearance = case.wheel_rail.flange_clearance;
+    if let Some(bound) = situation.demands.get(Index::WheelsetExcursion)
+        && bound > clearance
+        && let Some(place) = situation.place(&[
+            Index::WheelsetExcursion.path(),
+            "wheel_rail.flange_clearance",
+        ])
+    {
+        let clearance = shown(clearance, Quantity::Stroke);
+        doubts.push(
+            Diagnostic::at(
+                place,
+                format!("`wheelset_excursion` allows more than the flange does{suffix}"),
+                format!("the flange meets the rail at {clearance}"),
+            )
+            .help("the models know no flange force: excursions beyond it are not those of the vehicle".to_owned()),
+        );
+    }
+    static_deflection(situation, design, doubts);
+}
+
+/// A carbody settles by M_c g / 4 K_sz on its secondary springs: stiffer ones than the bounds allow
+/// cannot be chosen.
+fn static_deflection(situation: &Situation, design: &DesignSpace, doubts: &mut Vec<Diagnostic>) {
+    let index = Index::SecondaryStaticDeflection;
+    let Some(bound) = situation.demands.get(index) else {
+        return;
+    };
+    let stiffest = design_space_end(situation, design, |bounds| bounds.upper);
+    // A condition's own mass changes the frequency of the springs, not the springs.
+    let k_sz = stiffest.vehicle.suspension.secondary.vertical_stiffness;
+    let least = situation.case.vehicle.carbody.mass * GRAVITY / (4.0 * k_sz);
+    if situation.condition.is_none()
+        && bound < least
+        && let Some(place) = situation.place(&[index.path(), "vehicle.carbody.mass"])
+    {
+        doubts.push(
+            Diagnostic::at(
+                place,
+                format!("`{}` is out of reach", index.name()),
+                format!(
+                    "the stiffest springs that may be chosen settle by {}",
+                    shown(least, Quantity::Stroke)
+                ),
+            )
+            .help("allow stiffer secondary springs in [design], or more deflection".to_owned()),
+        );
+    }
+}

@@ -1,0 +1,69 @@
+//! `bogie check` and `bogie schema`, and the doubts about a spec in the results of other commands.
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+const DOUBTFUL: &str = "problems/doubtful/critical-speed-below-speed.toml";
+
+/// Exit code, standard output as JSON, standard error.
+fn json(args: &[&str]) -> (i32, Value, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_bogie"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(args)
+        .output()
+        .unwrap();
+    let value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    (output.status.code().unwrap(), value, stderr)
+}
+
+#[test]
+fn mistakes_as_json_stand_where_an_editor_shows_them() {
+    let args = [
+        "check",
+        "problems/invalid/several-mistakes.toml",
+        "--format",
+        "json",
+    ];
+    let (code, answer, _) = json(&args);
+    assert_eq!((code, &answer["valid"]), (2, &Value::Bool(false)));
+    let mistakes = answer["mistakes"].as_array().unwrap();
+    assert_eq!(mistakes.len(), 7);
+    let third = &mistakes[2];
+    assert_eq!((&third["line"], &third["column"]), (&9.into(), &1.into()));
+    assert_eq!(third["help"], "did you mean `mass`?");
+}
+
+#[test]
+fn a_spec_in_order_is_said_to_be() {
+    let (code, answer, stderr) = json(&["check", "problems/prototype.toml", "--format", "json"]);
+    assert_eq!((code, stderr.as_str()), (0, ""));
+    assert_eq!(answer["valid"], true);
+    assert_eq!(answer["warnings"], Value::Array(Vec::new()));
+}
+
+/// Text has them on standard error with their lines, JSON in the result as well.
+#[test]
+fn doubts_stand_in_every_result() {
+    for command in ["evaluate", "modes", "curve", "psd"] {
+        let (code, result, stderr) = json(&[command, DOUBTFUL, "--format", "json"]);
+        assert_eq!(code, 0, "{command}");
+        assert!(
+            stderr.contains("critical-speed-below-speed.toml:8:18"),
+            "{command}: {stderr}"
+        );
+        let warnings = result["warnings"].as_array().unwrap().iter();
+        let of_the_spec = warnings.filter(|w| w.as_str().unwrap().contains("asked for"));
+        assert_eq!(of_the_spec.count(), 2, "{command}");
+    }
+    let (code, answer, _) = json(&["check", DOUBTFUL, "--format", "json"]);
+    assert_eq!(code, 0);
+    assert_eq!(answer["warnings"][0]["line"], 8);
+}
+
+#[test]
+fn the_schema_is_printed() {
+    let (code, schema, _) = json(&["schema"]);
+    assert_eq!(code, 0);
+    assert_eq!(schema, bogie::spec::schema::schema());
+}
