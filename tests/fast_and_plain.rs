@@ -69,6 +69,25 @@ fn critical_speeds_are_those_of_full_spectra() {
     }
 }
 
+/// Vehicles that hunt from 35 to 40 mph and from 22 to 27 mph, and again from much higher speeds on:
+/// steps over the speed that are too long pass over the first.
+#[test]
+fn brief_instabilities_far_below_another_are_found() {
+    for (conicity, longitudinal, lateral, mph) in [
+        (0.05, 618_556.365_226_948_4, 10_866_311.267_168_801, 35.4),
+        (0.10, 392_708.419_161_130_4, 775_955.219_905_104_7, 22.1),
+    ] {
+        let mut case = Case::prototype();
+        case.service.speed = 110.0 * MPH;
+        case.wheel_rail.conicity = conicity;
+        case.vehicle.suspension.primary.longitudinal_stiffness = longitudinal;
+        case.vehicle.suspension.primary.lateral_stiffness = lateral;
+        let found = Stability::of(&case).unwrap().critical_speed().unwrap();
+        // From a scan of 3000 speeds, 0.2 % apart.
+        assert_ratio("critical speed", found / MPH, mph, 3e-3);
+    }
+}
+
 /// It does not matter from which speed the modes are followed.
 #[test]
 fn the_critical_speed_does_not_depend_on_where_the_search_starts() {
