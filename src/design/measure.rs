@@ -8,7 +8,7 @@ use crate::{
         critical_speed::Stability,
         curving::{CurvingLimits, CurvingState, Limit},
         damping_range::{DampingRange, Place},
-        lateral_modes::{KinematicBand, LateralModes, LateralShape},
+        lateral_modes::{LateralModes, LateralShape},
         limits::PEAK,
         passenger_ride::PassengerRide,
         ride::{LateralRide, NoRide, VerticalRide},
@@ -179,10 +179,9 @@ impl<'a> Models<'a> {
 
     fn modes(&mut self) -> Result<&LateralModes, Failure> {
         if self.modes.is_none() {
-            let (case, speed) = (self.case, self.case.service.speed);
-            let band = KinematicBand::new(&case.vehicle, &case.wheel_rail.contact(), speed);
+            let case = self.case;
             let (model, poles) = self.with_poles()?;
-            let modes = LateralModes::new(model, poles, band).map_err(|_| Failure::Eigenvalues)?;
+            let modes = LateralModes::new(model, case, poles).map_err(|_| Failure::Eigenvalues)?;
             self.modes = Some(modes);
         }
         self.modes.as_ref().ok_or(Failure::Eigenvalues)
@@ -358,8 +357,7 @@ impl<'a> Models<'a> {
                     .collect())
             }
             Index::SecondaryStaticDeflection => {
-                let k = 4.0 * suspension.secondary.vertical_stiffness;
-                Ok(pieces(&[carbody * GRAVITY / k]))
+                Ok(pieces(&[vehicle.secondary_static_deflection()]))
             }
             _ => {
                 let k = 8.0 * suspension.primary.vertical_stiffness;

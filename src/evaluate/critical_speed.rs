@@ -1,7 +1,7 @@
 //! Critical speed: the lowest speed at which an oscillatory mode loses its damping (3.4.4.2).
 
 use super::{
-    branches::{Branches, Event, Known, Search, Sought, onset},
+    branches::{Branches, Event, Search},
     mode::{Mode, frequency},
 };
 use crate::{
@@ -53,10 +53,6 @@ pub struct Stability {
     pub divergence: Option<f64>,
 }
 
-/// How surely modes are followed. With a share of one, brief instabilities have been passed over.
-const SURPRISE: [f64; 2] = [0.2, 0.003];
-/// Damping ratio above which modes that cannot be told apart for a moment cannot lose all of it.
-const MARGIN: f64 = 0.02;
 /// Share of the lowest onset's speed below it at which nothing must grow.
 const BEYOND: f64 = 1e-4;
 
@@ -119,13 +115,7 @@ impl Stability {
     ) -> Option<Self> {
         let [low, high] = range;
         let mut branches = Branches::within(range, model, poles)?;
-        let wants = |sought, a: &Known, b: &Known| sought == Sought::Onset && onset(a, b);
-        let mut search = Search {
-            wants: &wants,
-            surprise: SURPRISE,
-            clear_of: MARGIN,
-            events: Vec::new(),
-        };
+        let mut search = Search::onsets();
         let enough = |events: &[Event], speed: f64| {
             let speeds = events.iter().map(|event| event.at.speed);
             speed > reach * speeds.fold(f64::INFINITY, f64::min)

@@ -5,7 +5,7 @@
 //! instability is born at some speed within the range, at which the critical speed jumps.
 
 use super::{
-    branches::{Branches, Known, Search, Sought, minimum},
+    branches::{Branches, COMPLETE, Known, Search},
     mode::{damping_ratio, frequency},
 };
 use crate::dynamics::{EigenError, LateralModel, Poles};
@@ -43,14 +43,6 @@ pub struct DampingRange {
     pub diverges: bool,
 }
 
-/// How surely modes are followed: minima that turn twice between two speeds must not be missed.
-const SURPRISE: [f64; 2] = [0.2, 0.003];
-/// What is added to the damping ratios of interest where modes cannot be told apart for a moment.
-const MARGIN: f64 = 0.02;
-
-/// Damping ratios below which all modes at the ends of a walk are known for sure.
-const FOLLOWED: f64 = 0.05;
-
 impl DampingRange {
     /// Looks through `range`, m/s, for minima with damping ratios `below` a value, from the poles at
     /// any speed: by following the modes, or by full spectra where these cannot be told apart, or
@@ -66,7 +58,7 @@ impl DampingRange {
         range: [f64; 2],
         below: f64,
     ) -> Result<Self, EigenError> {
-        let followed = if below <= FOLLOWED {
+        let followed = if below <= COMPLETE {
             Self::followed(model, poles, range, below)
         } else {
             None
@@ -83,14 +75,7 @@ impl DampingRange {
     ) -> Option<Self> {
         let [low, high] = range;
         let mut branches = Branches::within(range, model, poles)?;
-        let wants =
-            |sought, a: &Known, b: &Known| sought == Sought::Minimum && minimum(a, b, below);
-        let mut search = Search {
-            wants: &wants,
-            surprise: SURPRISE,
-            clear_of: below + MARGIN,
-            events: Vec::new(),
-        };
+        let mut search = Search::minima(below);
         let bottom = branches.walk(low, &mut search, |_, _| false)?;
         let bottom = branches.complete(bottom, &mut search)?;
         let top = branches.walk(high, &mut search, |_, _| false)?;

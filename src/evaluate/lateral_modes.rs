@@ -2,6 +2,7 @@
 
 use super::mode::{Mode, damping_ratio, frequency};
 use crate::{
+    case::Case,
     closed_form::kinematic,
     dynamics::{
         EigenError, LateralModel, Poles,
@@ -84,11 +85,9 @@ impl LateralModes {
     /// # Errors
     ///
     /// [`EigenError`] if the mode shapes cannot be had.
-    pub fn new(
-        model: &LateralModel,
-        poles: &Poles,
-        kinematic: KinematicBand,
-    ) -> Result<Self, EigenError> {
+    pub fn new(model: &LateralModel, case: &Case, poles: &Poles) -> Result<Self, EigenError> {
+        let contact = case.wheel_rail.contact();
+        let kinematic = KinematicBand::new(&case.vehicle, &contact, poles.speed);
         let system = &model.forced.system;
         let damping = system.damping_at(poles.speed);
         let mut modes = Self {

@@ -21,7 +21,7 @@ pub mod warnings;
 
 use critical_speed::Stability;
 use curving::CurvingLimits;
-use lateral_modes::{KinematicBand, LateralModes};
+use lateral_modes::LateralModes;
 use passenger_ride::PassengerRide;
 use ride::{LateralRide, NoRide, VerticalRide};
 use vertical_modes::VerticalMode;
@@ -62,10 +62,9 @@ impl Evaluation {
         let lateral = LateralModel::new(case);
         let vertical = VerticalModel::new(case);
         let speed = case.service.speed;
-        let band = KinematicBand::new(&case.vehicle, &case.wheel_rail.contact(), speed);
         let lateral_poles = Poles::at(&lateral.forced.system, speed)?;
         let vertical_poles = Poles::at(&vertical.forced.system, speed)?;
-        let modes = LateralModes::new(&lateral, &lateral_poles, band)?;
+        let modes = LateralModes::new(&lateral, case, &lateral_poles)?;
         let vertical_modes = vertical_modes::vertical_modes(&vertical, &vertical_poles)?;
         Ok(Self {
             stability: Stability::new(&lateral, &lateral_poles, case.model.speed_range, 1.0)?,

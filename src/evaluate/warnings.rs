@@ -5,7 +5,6 @@ use crate::{
     case::{Case, TruckRoll},
     closed_form::natural_frequencies::{secondary_damping_ratio, truck_roll},
     units::us::MILE,
-    vehicle::GRAVITY,
 };
 
 /// Damping ratios of the carbody on its secondary suspension outside which something is amiss: the
@@ -107,7 +106,7 @@ fn suspension(case: &Case, list: &mut Vec<String>) {
     damping("lateral", s.lateral_stiffness, s.lateral_damping);
     if has_coils {
         damping("vertical", s.vertical_stiffness, s.vertical_damping);
-        let deflection = mass * GRAVITY / (4.0 * s.vertical_stiffness);
+        let deflection = case.vehicle.secondary_static_deflection();
         if deflection > COIL_DEFLECTION {
             list.push(format!(
                 "the secondary springs settle by {deflection:.2} m under the carbody: more than \

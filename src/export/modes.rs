@@ -12,7 +12,7 @@ use crate::{
     case::Case,
     dynamics::{EigenError, LateralModel, Poles, VerticalModel},
     evaluate::{
-        lateral_modes::{KinematicBand, LateralModes},
+        lateral_modes::LateralModes,
         vertical_modes::{VerticalMode, vertical_modes},
     },
     units::Quantity,
@@ -38,9 +38,8 @@ impl Modes {
     pub fn new(case: &Case, speeds: &[f64]) -> Result<Self, EigenError> {
         let model = LateralModel::new(case);
         let at = |speed: f64| {
-            let band = KinematicBand::new(&case.vehicle, &case.wheel_rail.contact(), speed);
             let poles = Poles::at(&model.forced.system, speed)?;
-            LateralModes::new(&model, &poles, band)
+            LateralModes::new(&model, case, &poles)
         };
         let vertical = VerticalModel::new(case);
         let poles = Poles::at(&vertical.forced.system, case.service.speed)?;

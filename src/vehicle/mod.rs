@@ -50,6 +50,15 @@ impl Vehicle {
         self.axle_load() / 2.0
     }
 
+    /// Static deflection of the secondary springs under the carbody, m.
+    ///
+    /// ```math
+    /// M_c g / (4 K_sz)
+    /// ```
+    pub fn secondary_static_deflection(&self) -> f64 {
+        self.carbody.mass * GRAVITY / (4.0 * self.suspension.secondary.vertical_stiffness)
+    }
+
     /// Total mass, kg.
     pub fn mass(&self) -> f64 {
         self.carbody.mass + 2.0 * self.truck.mass + 4.0 * self.wheelset.mass

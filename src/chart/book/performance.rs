@@ -6,7 +6,7 @@ use crate::{
     evaluate::{
         critical_speed::Stability,
         curving::CurvingLimits,
-        lateral_modes::{KinematicBand, LateralMode, LateralModes},
+        lateral_modes::{LateralMode, LateralModes},
         ride::{LateralRide, VerticalRide},
     },
 };
@@ -37,8 +37,7 @@ pub fn vertical_ride(case: &Case) -> Option<VerticalRide> {
 
 /// Modes of the lateral model at a speed, m/s; none where there are no eigenvalues.
 pub fn lateral_modes(case: &Case, model: &LateralModel, speed: f64) -> Vec<LateralMode> {
-    let band = KinematicBand::new(&case.vehicle, &case.wheel_rail.contact(), speed);
     let modes = Poles::at(&model.forced.system, speed)
-        .and_then(|poles| LateralModes::new(model, &poles, band));
+        .and_then(|poles| LateralModes::new(model, case, &poles));
     modes.map_or_else(|_| Vec::new(), |modes| modes.oscillatory)
 }

@@ -3,8 +3,8 @@
 use nalgebra::Complex;
 
 use super::{
-    pairs::{Pairs, Refiner, SETTLED},
-    state::{Known, State},
+    pairs::{Known, Pairs, Refiner, SETTLED},
+    state::State,
     track::Search,
 };
 use crate::{
@@ -46,7 +46,7 @@ const AGREE: f64 = 0.2;
 const SAME: f64 = 1e-6;
 
 /// dζ/d ln V.
-pub fn damping_slope(known: &Known) -> f64 {
+fn damping_slope(known: &Known) -> f64 {
     let (s, d) = (known.s, known.slope);
     let size = s.norm();
     let growth = (s.re * d.re + s.im * d.im) / size;
@@ -64,7 +64,7 @@ impl Sought {
 }
 
 /// The cubic in ln V with the values and slopes at two speeds.
-pub fn between(low: &Known, high: &Known, u: f64) -> Known {
+fn between(low: &Known, high: &Known, u: f64) -> Known {
     let (a, b) = (low.speed.ln(), high.speed.ln());
     let h = b - a;
     let t = (u - a) / h;
@@ -79,7 +79,7 @@ pub fn between(low: &Known, high: &Known, u: f64) -> Known {
 }
 
 /// Root of the sought function on the cubic, ln V.
-pub fn root(sought: Sought, low: &Known, high: &Known) -> f64 {
+fn root(sought: Sought, low: &Known, high: &Known) -> f64 {
     let (mut a, mut b) = (low.speed.ln(), high.speed.ln());
     for _ in 0..HALVINGS {
         let middle = f64::midpoint(a, b);
@@ -117,15 +117,18 @@ impl Bracket {
     }
 }
 
-/// Adds to a search what it wants between two neighbouring speeds. Where onsets are wanted, so are
-/// those before a minimum that falls below zero. `None` if something cannot be found where it must
-/// be.
+/// Adds to a search what it seeks between two neighbouring speeds. Onsets are those at which a mode
+/// is damped below and grows above, and those before a minimum that falls below zero. `None` if
+/// something cannot be found where it must be.
 pub(super) fn find(
     refiner: &mut Refiner,
     before: &State,
     after: &State,
-    search: &mut Search<'_>,
+    search: &mut Search,
 ) -> Option<()> {
+    let Some(sought) = search.sought else {
+        return Some(());
+    };
     let mut brackets = Vec::new();
     let mut dips = Vec::new();
     for l in before.living().filter(|&l| after.alive[l]) {
@@ -133,21 +136,25 @@ pub(super) fn find(
         if low.speed > high.speed {
             std::mem::swap(&mut low, &mut high);
         }
-        for sought in [Sought::Onset, Sought::Minimum] {
-            if (search.wants)(sought, &low, &high) {
-                brackets.push(Bracket::new(sought, l, low, high));
+        let damped = [low, high].map(|known| known.s.re < 0.0);
+        match (sought, damped) {
+            (Sought::Onset, [true, false]) => {
+                brackets.push(Bracket::new(Sought::Onset, l, low, high));
             }
-        }
-        let stable = low.s.re < 0.0 && high.s.re < 0.0;
-        if stable && minimum(&low, &high, 0.0) {
-            dips.push(Bracket::new(Sought::Minimum, l, low, high));
+            (Sought::Onset, [true, true]) if minimum(&low, &high, 0.0) => {
+                dips.push(Bracket::new(Sought::Minimum, l, low, high));
+            }
+            (Sought::Minimum, _) if minimum(&low, &high, search.below) => {
+                brackets.push(Bracket::new(Sought::Minimum, l, low, high));
+            }
+            _ => (),
         }
     }
     for dips in dips.chunks_mut(LANES) {
         close(refiner, before, dips)?;
         for dip in dips {
             let bottom = dip.found.as_ref()?.at;
-            if bottom.s.re >= 0.0 && (search.wants)(Sought::Onset, &dip.low_end, &bottom) {
+            if bottom.s.re >= 0.0 {
                 brackets.push(Bracket::new(Sought::Onset, dip.lane, dip.low_end, bottom));
             }
         }
@@ -179,11 +186,7 @@ fn close(refiner: &mut Refiner, start: &State, brackets: &mut [Bracket]) -> Opti
             return None;
         }
         for (l, bracket) in brackets.iter_mut().enumerate() {
-            let known = Known {
-                speed: pairs.speed[l],
-                s: pairs.s.lane(l),
-                slope: pairs.slope.lane(l),
-            };
+            let known = pairs.known(l);
             let apart = (known.s - guesses[l].s).norm();
             if apart.is_nan() || apart > AGREE * known.s.norm() {
                 return None;
@@ -239,13 +242,8 @@ fn finished(sought: Sought, known: &Known) -> Known {
     }
 }
 
-/// Whether a branch loses its damping between two speeds.
-pub fn onset(low: &Known, high: &Known) -> bool {
-    low.s.re < 0.0 && high.s.re >= 0.0
-}
-
 /// Whether a branch has a minimum of damping between two speeds that may fall below a value.
-pub fn minimum(low: &Known, high: &Known, below: f64) -> bool {
+fn minimum(low: &Known, high: &Known, below: f64) -> bool {
     if !(damping_slope(low) < 0.0 && damping_slope(high) >= 0.0) {
         return false;
     }

@@ -5,7 +5,7 @@ use nalgebra::Complex;
 use super::{
     events::find,
     state::{STRONG, State},
-    track::{Branches, Search, worth_following},
+    track::{Branches, Search, take_nearest, worth_following},
 };
 use crate::{
     dynamics::{Poles, elimination::LANES},
@@ -22,12 +22,7 @@ impl Branches<'_> {
     /// The modes beyond a place at which two come too close, where eigenvalues move as the square
     /// root of the speed and cannot be interpolated. Those of which it is not clear which is which
     /// must be damped by more than the search asks for on both sides, or the answer is `None`.
-    pub(super) fn jump(
-        &mut self,
-        now: &State,
-        target: f64,
-        search: &mut Search<'_>,
-    ) -> Option<State> {
+    pub(super) fn jump(&mut self, now: &State, target: f64, search: &mut Search) -> Option<State> {
         let way = (target / now.speed()).ln();
         for width in WIDTHS.into_iter().filter(|width| *width < way.abs()) {
             let speed = now.speed() * width.copysign(way).exp();
@@ -62,16 +57,12 @@ fn matched(
     let all = values.clone();
     for l in now.living() {
         let known = now.known(l);
-        let h = (speed / known.speed).ln();
-        let expected = known.s * (known.slope / known.s * h).exp();
-        let apart = |s: &Complex<f64>| (s - expected).norm();
-        let nearest =
-            (0..values.len()).min_by(|a, b| apart(&values[*a]).total_cmp(&apart(&values[*b])));
+        let expected = known.expected((speed / known.speed).ln(), None);
         // A strongly damped one may have left the sector that is followed.
-        let Some(i) = nearest.filter(|&i| apart(&values[i]) < STRONG * expected.norm()) else {
+        let Some(s) = take_nearest(&mut values, expected, STRONG * expected.norm()) else {
             continue;
         };
-        let s = values.swap_remove(i);
+        let apart = |s: &Complex<f64>| (s - expected).norm();
         let others = all.iter().filter(|other| **other != s);
         let next = others.map(apart).fold(f64::INFINITY, f64::min);
         clear[l] = apart(&s) < CLEAR * next;

@@ -15,8 +15,7 @@ mod sector;
 mod state;
 mod track;
 
-pub use events::{Event, Sought, minimum, onset};
-pub use pairs::{Pairs, Refiner};
+pub use events::{Event, Sought};
+pub use pairs::{Known, Pairs, Refiner};
 pub use sector::modes_below;
-pub use state::Known;
-pub use track::{Branches, Search, Walked};
+pub use track::{Branches, COMPLETE, Search, Walked};

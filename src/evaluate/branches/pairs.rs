@@ -11,6 +11,29 @@ use crate::{
     evaluate::mode::Mode,
 };
 
+/// An eigenvalue and its slope at a speed.
+#[derive(Debug, Clone, Copy)]
+pub struct Known {
+    /// V, m/s.
+    pub speed: f64,
+    /// s, rad/s.
+    pub s: Complex<f64>,
+    /// ds/d ln V.
+    pub slope: Complex<f64>,
+}
+
+impl Known {
+    /// Where s is expected at h further in ln V, from here and, if it is known, from `before`. In
+    /// ln s: at low speed the kinematic modes go with V itself.
+    pub fn expected(&self, h: f64, before: Option<&Self>) -> Complex<f64> {
+        let rate = self.slope / self.s;
+        let bend = before.map_or(Complex::ZERO, |before| {
+            (rate - before.slope / before.s) / (self.speed / before.speed).ln()
+        });
+        self.s * (rate * h + bend * (h * h / 2.0)).exp()
+    }
+}
+
 /// [`LANES`] eigenpairs D(s) x = 0, yᵀ D(s) = 0, each at a speed of its own.
 #[derive(Debug, Clone)]
 pub struct Pairs {
@@ -82,6 +105,15 @@ impl Pairs {
         let products = a.x.iter().zip(&b.x);
         let product: Complex<f64> = products.map(|(a, b)| a.lane(i).conj() * b.lane(j)).sum();
         product.norm() > ALIKE
+    }
+
+    /// The eigenvalue in lane `l`.
+    pub fn known(&self, l: usize) -> Known {
+        Known {
+            speed: self.speed[l],
+            s: self.s.lane(l),
+            slope: self.slope.lane(l),
+        }
     }
 
     /// The mode in lane `l`.

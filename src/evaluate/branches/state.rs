@@ -2,22 +2,11 @@
 
 use nalgebra::Complex;
 
-use super::pairs::{Pairs, Refiner};
+use super::pairs::{Known, Pairs, Refiner};
 use crate::{
     dynamics::elimination::{LANES, Lanes},
     evaluate::mode::damping_ratio,
 };
-
-/// An eigenvalue and its slope at a speed.
-#[derive(Debug, Clone, Copy)]
-pub struct Known {
-    /// V, m/s.
-    pub speed: f64,
-    /// s, rad/s.
-    pub s: Complex<f64>,
-    /// ds/d ln V.
-    pub slope: Complex<f64>,
-}
 
 /// Damping ratio above which a mode is let go where it cannot be told apart from another: it
 /// matters only if it turns up among the little damped ones later, and then the count tells.
@@ -54,21 +43,21 @@ impl State {
         speed: f64,
         values: [Option<Complex<f64>>; LANES],
     ) -> Option<Self> {
-        let first = values.iter().flatten().next().copied();
-        let values_or = values.map(|s| s.or(first).unwrap_or(Complex::ONE));
+        let alive = values.map(|s| s.is_some());
+        let first = values.into_iter().flatten().next();
+        let values = values.map(|s| s.or(first).unwrap_or(Complex::ONE));
         // A shift off the eigenvalue keeps the factors regular.
         let shift = Complex::new(1.0 + 1e-8, 1e-8);
-        let s = Lanes::from_fn(|l| shift * values_or[l]);
+        let s = Lanes::from_fn(|l| shift * values[l]);
         let mut state = Self {
             pairs: Pairs::near(s, [speed; LANES], refiner.order()),
-            alive: values.map(|s| s.is_some()),
+            alive,
         };
         if first.is_none() {
             return Some(state);
         }
         refiner.step(&mut state.pairs);
         refiner.step(&mut state.pairs);
-        let values = values_or;
         let lost = |state: &Self, l: usize| {
             let apart = (state.known(l).s - values[l]).norm();
             apart.is_nan() || apart > EXPECTED * values[l].norm() || state.repeats(l)
@@ -79,11 +68,7 @@ impl State {
     }
 
     pub fn known(&self, l: usize) -> Known {
-        Known {
-            speed: self.pairs.speed[l],
-            s: self.pairs.s.lane(l),
-            slope: self.pairs.slope.lane(l),
-        }
+        self.pairs.known(l)
     }
 
     pub fn speed(&self) -> f64 {

@@ -4,9 +4,9 @@ use nalgebra::Complex;
 
 use super::{
     events::{Event, Sought, find},
-    pairs::{Refiner, SETTLED},
+    pairs::{Known, Refiner, SETTLED},
     sector::modes_below,
-    state::{Known, STRONG, State},
+    state::{STRONG, State},
 };
 use crate::{
     dynamics::{LateralModel, Poles, elimination::LANES},
@@ -21,8 +21,10 @@ const LONGEST: f64 = 0.8;
 const SHORTEST: f64 = 5e-3;
 /// Relative change of s that ends the iteration on the way: the step itself leaves its cube.
 const LOOSE: f64 = 3e-3;
+/// Damping ratio below which all modes at the end of a walk are known for sure.
+pub const COMPLETE: f64 = 0.05;
 /// Damping ratios between which the modes are counted.
-const COUNTED: [f64; 2] = [0.05, 0.15];
+const COUNTED: [f64; 2] = [COMPLETE, 0.15];
 /// Relative distance within which an eigenvalue of a spectrum is one that was followed.
 const SAME: f64 = 1e-5;
 
@@ -36,17 +38,58 @@ pub struct Branches<'m> {
 }
 
 /// What to look for on the way.
-pub struct Search<'f> {
-    /// Whether an event is wanted on a branch between two speeds, the lower one first.
-    pub wants: &'f dyn Fn(Sought, &Known, &Known) -> bool,
+pub struct Search {
+    /// Kind of event; `None`: nothing.
+    pub(super) sought: Option<Sought>,
+    /// Damping ratio below which minima are of interest.
+    pub(super) below: f64,
     /// How far an eigenvalue may be found from where it was expected, as a share of its size: this
     /// share of its damping ratio, but not less than the second value. The step's own cubic is
     /// then off by a small part of that.
-    pub surprise: [f64; 2],
+    surprise: [f64; 2],
     /// Damping ratio above which modes may be lost sight of for a moment.
-    pub clear_of: f64,
+    pub(super) clear_of: f64,
     /// What was found.
     pub events: Vec<Event>,
+}
+
+/// With a share of one, brief instabilities have been passed over.
+const SURPRISE: [f64; 2] = [0.2, 0.003];
+/// How far above the damping ratios of interest modes that cannot be told apart for a moment stay
+/// clear of these.
+const MARGIN: f64 = 0.02;
+
+impl Search {
+    /// For onsets of instability.
+    pub fn onsets() -> Self {
+        Self::of(Sought::Onset, 0.0)
+    }
+
+    /// For minima of damping ratios below a value.
+    pub fn minima(below: f64) -> Self {
+        Self::of(Sought::Minimum, below)
+    }
+
+    fn of(sought: Sought, below: f64) -> Self {
+        Self {
+            sought: Some(sought),
+            below,
+            surprise: SURPRISE,
+            clear_of: below + MARGIN,
+            events: Vec::new(),
+        }
+    }
+
+    /// For nothing: on the way to where a search begins.
+    fn idle() -> Self {
+        Self {
+            sought: None,
+            below: f64::NEG_INFINITY,
+            surprise: [1.0, 0.1],
+            clear_of: f64::NEG_INFINITY,
+            events: Vec::new(),
+        }
+    }
 }
 
 /// Where a walk has ended.
@@ -65,14 +108,8 @@ impl<'m> Branches<'m> {
             refiner,
         };
         let inside = poles.speed.clamp(range[0], range[1]);
-        let mut nothing = Search {
-            wants: &|_, _, _| false,
-            surprise: [1.0, 0.1],
-            clear_of: f64::NEG_INFINITY,
-            events: Vec::new(),
-        };
         let start = branches.start.clone();
-        branches.start = branches.follow(start, inside, &mut nothing, |_, _| false)?;
+        branches.start = branches.follow(start, inside, &mut Search::idle(), |_, _| false)?;
         (branches.growing <= 1).then_some(branches)
     }
 
@@ -91,7 +128,7 @@ impl<'m> Branches<'m> {
     pub fn walk(
         &mut self,
         target: f64,
-        search: &mut Search<'_>,
+        search: &mut Search,
         enough: impl Fn(&[Event], f64) -> bool,
     ) -> Option<Walked> {
         let start = self.start.clone();
@@ -100,7 +137,7 @@ impl<'m> Branches<'m> {
 
     /// The modes at the end of a walk, made sure that none that is little damped there is missing:
     /// those that were not followed are followed back to the start.
-    pub fn complete(&mut self, walked: Walked, search: &mut Search<'_>) -> Option<Vec<Known>> {
+    pub fn complete(&mut self, walked: Walked, search: &mut Search) -> Option<Vec<Known>> {
         let speed = walked.0.speed();
         let mut modes = self.settled(walked.0);
         if !self.all(&modes, speed) {
@@ -128,16 +165,9 @@ impl<'m> Branches<'m> {
         let poles = Poles::at(&self.model.forced.system, speed).ok()?;
         let mut values = worth_following(&poles);
         for known in known {
-            let apart = |s: &Complex<f64>| (s - known.s).norm();
-            let nearest = (0..values.len())
-                .min_by(|a, b| apart(&values[*a]).total_cmp(&apart(&values[*b])))
-                .filter(|&i| apart(&values[i]) < SAME * known.s.norm());
-            match nearest {
-                Some(i) => {
-                    values.swap_remove(i);
-                }
-                None if damping_ratio(known.s) < COUNTED[1] => return None,
-                None => (),
+            let taken = take_nearest(&mut values, known.s, SAME * known.s.norm());
+            if taken.is_none() && damping_ratio(known.s) < COUNTED[1] {
+                return None;
             }
         }
         State::new(&mut self.refiner, speed, values)
@@ -147,7 +177,7 @@ impl<'m> Branches<'m> {
         &mut self,
         start: State,
         target: f64,
-        search: &mut Search<'_>,
+        search: &mut Search,
         enough: impl Fn(&[Event], f64) -> bool,
     ) -> Option<State> {
         let mut now = start;
@@ -175,19 +205,16 @@ impl<'m> Branches<'m> {
                 Some((state, surprise)) if surprise <= 1.0 => {
                     find(&mut self.refiner, &now, &state, search)?;
                     last = Some(std::mem::replace(&mut now, state));
-                    if enough(&search.events, now.speed()) {
-                        break;
-                    }
                 }
                 _ if length < SHORTEST => {
                     now = self.jump(&now, target, search)?;
                     last = None;
                     length = FIRST;
-                    if enough(&search.events, now.speed()) {
-                        break;
-                    }
                 }
-                _ => (),
+                _ => continue,
+            }
+            if enough(&search.events, now.speed()) {
+                break;
             }
         }
         Some(now)
@@ -206,15 +233,8 @@ impl<'m> Branches<'m> {
         let h = (speed / now.speed()).ln();
         for l in now.living() {
             let known = now.known(l);
-            // In ln s: at low speed the kinematic modes go with V itself.
-            let rate = known.slope / known.s;
-            let bend = last
-                .filter(|last| last.alive[l])
-                .map_or(Complex::ZERO, |last| {
-                    let before = last.known(l);
-                    (rate - before.slope / before.s) / (known.speed / before.speed).ln()
-                });
-            let s = known.s * (rate * h + bend * (h * h / 2.0)).exp();
+            let before = last.filter(|last| last.alive[l]).map(|last| last.known(l));
+            let s = known.expected(h, before.as_ref());
             (next.pairs.s.re[l], next.pairs.s.im[l]) = (s.re, s.im);
         }
         next.pairs.speed = [speed; LANES];
@@ -276,6 +296,18 @@ pub(super) fn worth_following(poles: &Poles) -> Vec<Complex<f64>> {
     oscillatory
         .filter(|s| damping_ratio(*s).abs() < FOLLOWED)
         .collect()
+}
+
+/// Takes out the eigenvalue nearest to a place, if it is nearer than `within`.
+pub(super) fn take_nearest(
+    values: &mut Vec<Complex<f64>>,
+    to: Complex<f64>,
+    within: f64,
+) -> Option<Complex<f64>> {
+    let apart = |i: usize| (values[i] - to).norm();
+    let nearest = (0..values.len()).min_by(|&a, &b| apart(a).total_cmp(&apart(b)));
+    let nearest = nearest.filter(|&i| apart(i) < within)?;
+    Some(values.swap_remove(nearest))
 }
 
 /// Whether a mode is no longer worth following.

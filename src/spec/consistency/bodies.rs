@@ -19,6 +19,19 @@ struct Gyration {
     why: &'static str,
 }
 
+impl Gyration {
+    /// Of a body of some mass, kg: from paths, inertia, usual radii and where these come from.
+    fn of(mass: f64) -> impl Fn([&'static str; 3], f64, [f64; 2], &'static str) -> Self {
+        move |paths, inertia, usual, why| Self {
+            paths,
+            inertia,
+            mass,
+            usual,
+            why,
+        }
+    }
+}
+
 /// I_z ≤ I_x + I_y for any body whatever; published inertias are rounded, and a frame's are often
 /// summed from parts.
 const ROUNDING: f64 = 1.05;
@@ -38,20 +51,14 @@ pub fn strange_bodies(situation: &Situation, doubts: &mut Doubts) {
     for gyration in bodies.iter().flatten() {
         radius(situation, gyration, doubts);
     }
-    for [yaw, roll, other] in bodies.each_ref().map(|[a, b, c]| [a, b, c]) {
-        other_two(situation, [yaw, roll, other], doubts);
+    for body in &bodies {
+        other_two(situation, body, doubts);
     }
 }
 
 fn carbody(vehicle: &Vehicle) -> [Gyration; 3] {
     let body = &vehicle.carbody;
-    let gyration = |paths, inertia, usual, why| Gyration {
-        paths,
-        inertia,
-        mass: body.mass,
-        usual,
-        why,
-    };
+    let gyration = Gyration::of(body.mass);
     let [mass, length] = ["carbody.mass", "carbody.length"];
     let usual = [0.2 * body.length, 0.4 * body.length];
     [
@@ -78,13 +85,7 @@ fn carbody(vehicle: &Vehicle) -> [Gyration; 3] {
 
 fn frame(vehicle: &Vehicle) -> [Gyration; 3] {
     let body = &vehicle.truck;
-    let gyration = |paths, inertia, usual, why| Gyration {
-        paths,
-        inertia,
-        mass: body.mass,
-        usual,
-        why,
-    };
+    let gyration = Gyration::of(body.mass);
     let [mass, base] = ["truck.mass", "truck.half_wheelbase"];
     let ends = body.half_wheelbase + vehicle.wheelset.rolling_radius;
     let usual = [0.1 * ends, ends];
@@ -112,13 +113,7 @@ fn frame(vehicle: &Vehicle) -> [Gyration; 3] {
 
 fn wheelset(vehicle: &Vehicle) -> [Gyration; 3] {
     let body = &vehicle.wheelset;
-    let gyration = |paths, inertia, usual, why| Gyration {
-        paths,
-        inertia,
-        mass: body.mass,
-        usual,
-        why,
-    };
+    let gyration = Gyration::of(body.mass);
     let (mass, a, r_0) = (
         "wheelset.mass",
         body.half_contact_distance,
@@ -175,9 +170,9 @@ fn radius(situation: &Situation, gyration: &Gyration, doubts: &mut Doubts) {
 }
 
 /// None of a body's three inertias exceeds the sum of the other two.
-fn other_two(situation: &Situation, body: [&Gyration; 3], doubts: &mut Doubts) {
+fn other_two(situation: &Situation, body: &[Gyration; 3], doubts: &mut Doubts) {
     let sum: f64 = body.iter().map(|gyration| gyration.inertia).sum();
-    let [first, second, third] = body.map(|gyration| gyration.paths[0]);
+    let [first, second, third] = body.each_ref().map(|gyration| gyration.paths[0]);
     for Gyration { paths, inertia, .. } in body {
         if *inertia > ROUNDING * (sum - inertia)
             && let Some(place) = place(situation, &[paths[0], first, second, third])

@@ -6,7 +6,6 @@ use crate::index::Index;
 use crate::spec::DesignSpace;
 use crate::spec::diagnostic::Diagnostic;
 use crate::units::Quantity;
-use crate::vehicle::GRAVITY;
 
 /// Doubts about requirements and limits in one condition.
 pub fn odd_demands(situation: &Situation, design: &DesignSpace, doubts: &mut Vec<Diagnostic>) {
@@ -56,10 +55,9 @@ fn static_deflection(situation: &Situation, design: &DesignSpace, doubts: &mut V
     let Some(bound) = situation.demands.get(index) else {
         return;
     };
-    let stiffest = design_space_end(situation, design, |bounds| bounds.upper);
     // A condition's own mass changes the frequency of the springs, not the springs.
-    let k_sz = stiffest.vehicle.suspension.secondary.vertical_stiffness;
-    let least = situation.case.vehicle.carbody.mass * GRAVITY / (4.0 * k_sz);
+    let stiffest = design_space_end(situation, design, |bounds| bounds.upper);
+    let least = stiffest.vehicle.secondary_static_deflection();
     if situation.condition.is_none()
         && bound < least
         && let Some(place) = situation.place(&[index.path(), "vehicle.carbody.mass"])
