@@ -1,7 +1,10 @@
 //! `bogie check` and `bogie schema`, and the doubts about a spec in the results of other commands.
 
+use std::fs;
+
 use assert_cmd::Command;
 use serde_json::Value;
+use sha2::{Digest, Sha256};
 
 const DOUBTFUL: &str = "problems/doubtful/critical-speed-below-speed.toml";
 
@@ -42,7 +45,8 @@ fn a_spec_in_order_is_said_to_be() {
     assert_eq!(answer["warnings"], Value::Array(Vec::new()));
 }
 
-/// Text has them on standard error with their lines, JSON in the result as well.
+/// Text has them on standard error with their lines, JSON in the result as well, beside what it comes
+/// from.
 #[test]
 fn doubts_stand_in_every_result() {
     for command in ["evaluate", "modes", "curve", "psd"] {
@@ -55,6 +59,12 @@ fn doubts_stand_in_every_result() {
         let warnings = result["warnings"].as_array().unwrap().iter();
         let of_the_spec = warnings.filter(|w| w.as_str().unwrap().contains("asked for"));
         assert_eq!(of_the_spec.count(), 2, "{command}");
+        assert_eq!(
+            result["program"],
+            concat!("bogie ", env!("CARGO_PKG_VERSION"))
+        );
+        let digest = format!("{:x}", Sha256::digest(fs::read(DOUBTFUL).unwrap()));
+        assert_eq!(result["spec_sha256"], digest.as_str(), "{command}");
     }
     let (code, answer, _) = json(&["check", DOUBTFUL, "--format", "json"]);
     assert_eq!(code, 0);

@@ -214,11 +214,15 @@ fn a_front_that_was_killed_goes_on_to_the_same_bytes() {
     runs.same("pareto", "cut", "whole");
 }
 
+fn signal(child: &Child, name: &str) {
+    let id = child.id().to_string();
+    let sent = Command::new("kill").args([name, &id]).status().unwrap();
+    assert!(sent.success());
+}
+
 /// Ctrl-C.
 fn interrupt(child: Child) -> Output {
-    let id = child.id().to_string();
-    let sent = Command::new("kill").args(["-INT", &id]).status().unwrap();
-    assert!(sent.success());
+    signal(&child, "-INT");
     child.wait_with_output().unwrap()
 }
 
@@ -288,6 +292,29 @@ fn only_a_journal_of_the_same_search_is_gone_on_with() {
     let mut call = Command::new(env!("CARGO_BIN_EXE_bogie"));
     let output = call.arg("pareto").arg(&runs.spec).arg("--resume").output();
     assert_eq!(output.unwrap().status.code(), Some(2));
+}
+
+/// Two runs into one folder would mix their journals.
+#[test]
+fn a_second_run_into_a_folder_in_use_is_turned_away() {
+    let runs = Runs::new(QUICK);
+    runs.complete("pareto", "whole", &[]);
+    let first = runs.until("pareto", "shared", 20);
+    // Held still, so that it cannot be over before the others are.
+    signal(&first, "-STOP");
+    for more in [&[][..], &["--resume"]] {
+        let output = runs.run("pareto", "shared", more);
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        assert!(
+            stderr(&output).contains("another run"),
+            "{}",
+            stderr(&output)
+        );
+        assert!(output.stdout.is_empty());
+    }
+    signal(&first, "-CONT");
+    assert!(first.wait_with_output().unwrap().status.success());
+    runs.same("pareto", "shared", "whole");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! One function per command.
 
 use bogie::{
-    evaluate::{Evaluation, warnings::warnings},
+    evaluate::{Evaluation, ride::NoRide, warnings::warnings},
     export::{self, curve::Curving, evaluation_json, modes, psd::Spectra},
     spec::{STARTER, Spec, schema},
     track::{MAX_DEGREE, SUPERELEVATION_BASE},
@@ -15,12 +15,15 @@ use super::{
     input, output,
 };
 
+/// Program and version, in results and journals.
+pub(super) const PROGRAM: &str = concat!("bogie ", env!("CARGO_PKG_VERSION"));
+
 pub fn evaluate(run: &Run) -> Result<Done, Failure> {
     let input::Named {
         name,
         spec,
+        digest,
         warnings: doubts,
-        ..
     } = input::read(&run.source.spec)?;
     let evaluation = Evaluation::new(&spec.case).map_err(failed)?;
     let warnings = warnings(&spec.case, &evaluation);
@@ -29,8 +32,9 @@ pub fn evaluate(run: &Run) -> Result<Done, Failure> {
         "evaluate",
         || export::evaluation(&name, &spec.case, &evaluation, &warnings),
         || {
-            let all = [doubts, warnings.clone()].concat();
-            evaluation_json::evaluation(&name, &spec.case, &evaluation, &all)
+            let all = together(&doubts, &warnings);
+            let result = evaluation_json::evaluation(&name, &spec.case, &evaluation, &all);
+            with_origin(result, &digest, &all)
         },
     )?;
     Ok(Done::Complete)
@@ -40,8 +44,8 @@ pub fn modes(call: &Modes) -> Result<Done, Failure> {
     let input::Named {
         name,
         spec,
+        digest,
         warnings,
-        ..
     } = input::read(&call.run.source.spec)?;
     let speeds = if call.speeds.is_empty() {
         (1..=10)
@@ -58,7 +62,7 @@ pub fn modes(call: &Modes) -> Result<Done, Failure> {
         &call.run,
         "modes",
         || modes.text(&name, &spec.case),
-        || with_warnings(modes.json(&name, &spec.case), &warnings),
+        || with_origin(modes.json(&name, &spec.case), &digest, &warnings),
     )?;
     Ok(Done::Complete)
 }
@@ -67,8 +71,8 @@ pub fn curve(call: &Curve) -> Result<Done, Failure> {
     let input::Named {
         name,
         spec,
+        digest,
         warnings,
-        ..
     } = input::read(&call.run.source.spec)?;
     if let Some(degree) = call.degree
         && !(degree > 0.0 && degree <= MAX_DEGREE)
@@ -83,7 +87,7 @@ pub fn curve(call: &Curve) -> Result<Done, Failure> {
         &call.run,
         "curve",
         || curving.text(&name, &spec.case),
-        || with_warnings(curving.json(&name, &spec.case), &warnings),
+        || with_origin(curving.json(&name, &spec.case), &digest, &warnings),
     )?;
     Ok(Done::Complete)
 }
@@ -92,10 +96,18 @@ pub fn psd(call: &Psd) -> Result<Done, Failure> {
     let input::Named {
         name,
         spec,
+        digest,
         warnings,
-        ..
     } = input::read(&call.run.source.spec)?;
-    let spectra = Spectra::new(&spec.case, call.points as usize);
+    let spectra = Spectra::new(&spec.case, call.points as usize).map_err(failed)?;
+    for (model, columns) in [
+        ("lateral", &spectra.lateral),
+        ("vertical", &spectra.vertical),
+    ] {
+        if columns.is_none() {
+            eprintln!("no {model} spectra: {}", NoRide::Unstable);
+        }
+    }
     if call.csv {
         output::write(spectra.csv(), call.run.out.as_deref(), "psd.csv")?;
         return Ok(Done::Complete);
@@ -104,7 +116,7 @@ pub fn psd(call: &Psd) -> Result<Done, Failure> {
         &call.run,
         "psd",
         || spectra.text(&name, &spec.case),
-        || with_warnings(spectra.json(&name, &spec.case), &warnings),
+        || with_origin(spectra.json(&name, &spec.case), &digest, &warnings),
     )?;
     Ok(Done::Complete)
 }
@@ -155,9 +167,17 @@ pub fn init(call: &Init) -> Result<Done, Failure> {
     Ok(Done::Complete)
 }
 
-/// A result with what is doubtful in its spec.
-pub(super) fn with_warnings(mut result: Value, warnings: &[String]) -> Value {
+/// Doubts about a spec and about its evaluation; what both say stands once.
+pub(super) fn together(doubts: &[String], warnings: &[String]) -> Vec<String> {
+    let more = warnings.iter().filter(|text| !doubts.contains(text));
+    doubts.iter().chain(more).cloned().collect()
+}
+
+/// A result with what it comes from and what is doubtful in its spec.
+pub(super) fn with_origin(mut result: Value, digest: &str, warnings: &[String]) -> Value {
     if let Value::Object(object) = &mut result {
+        object.insert("program".into(), json!(PROGRAM));
+        object.insert("spec_sha256".into(), json!(digest));
         object.insert("warnings".into(), json!(warnings));
     }
     result

@@ -21,7 +21,7 @@ use bogie::{
 use super::{
     Done, Failure,
     arguments::{Method, Optimize, Pareto, Search, Sensitivity, TableFormat},
-    commands::{deliver, failed, with_warnings, wrong},
+    commands::{PROGRAM, deliver, failed, together, with_origin, wrong},
     input, interrupt, output,
     progress::Line,
 };
@@ -59,7 +59,7 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
         "optimize",
         || design_text::design(&name, &result, &spec.demands, matters.as_ref(), &warnings),
         || {
-            let all = [doubts, warnings.clone()].concat();
+            let all = together(&doubts, &warnings);
             design_json::design(&name, &result, &spec, &digest, matters.as_ref(), &all)
         },
     )?;
@@ -115,10 +115,8 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
         (call.format, call.out.as_deref(), "pareto"),
         || export::pareto::text(&name, &front),
         || {
-            with_warnings(
-                export::pareto::json(&name, &front, &spec, &digest),
-                &warnings,
-            )
+            let result = export::pareto::json(&name, &front, &spec, &digest);
+            with_origin(result, &digest, &warnings)
         },
         || export::pareto::table(&name, &front, &digest),
     )?;
@@ -150,8 +148,8 @@ pub fn sensitivity(call: &Sensitivity) -> Result<Done, Failure> {
     let input::Named {
         name,
         spec,
+        digest,
         warnings,
-        ..
     } = input::read(&call.source.spec)?;
     if !(0.0..1.0).contains(&call.spread) {
         return Err(wrong(&format!(
@@ -193,7 +191,7 @@ pub fn sensitivity(call: &Sensitivity) -> Result<Done, Failure> {
     deliver_table(
         (call.format, call.out.as_deref(), "sensitivity"),
         || export::sensitivity::text(&name, &found),
-        || with_warnings(export::sensitivity::json(&name, &found), &warnings),
+        || with_origin(export::sensitivity::json(&name, &found), &digest, &warnings),
         || export::sensitivity::table(&found),
     )?;
     Ok(Done::Complete)
@@ -221,7 +219,7 @@ fn deliver_table(
 /// What a journal must belong to: all that decides the search but the budget, which may be raised.
 fn header(command: &str, digest: &str) -> Header {
     Header {
-        program: concat!("bogie ", env!("CARGO_PKG_VERSION")).into(),
+        program: PROGRAM.into(),
         digest: format!("{command} {digest}"),
     }
 }
@@ -248,6 +246,7 @@ fn archive<'a>(
         JournalError::Io(error) => {
             Failure::Failed(format!("cannot write {}: {error}", path.display()))
         }
+        JournalError::Busy => Failure::Failed(format!("{}: {error}", path.display())),
         JournalError::Foreign | JournalError::Missing => Failure::Invalid(format!(
             "error: cannot resume from {}: {error}",
             path.display()

@@ -7,3 +7,4 @@ pub mod corrections;
 pub mod curving;
 pub mod kinematic;
 pub mod natural_frequencies;
+pub mod unusual;

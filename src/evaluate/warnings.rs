@@ -3,17 +3,9 @@
 use super::{Evaluation, limits, ride::NoRide};
 use crate::{
     case::{Case, TruckRoll},
-    closed_form::natural_frequencies::{secondary_damping_ratio, truck_roll},
+    closed_form::{natural_frequencies::truck_roll, unusual::secondary_oddities},
     units::us::MILE,
 };
-
-/// Damping ratios of the carbody on its secondary suspension outside which something is amiss: the
-/// report looks at 0.1 to 0.6 (4.3, 4.4).
-const DAMPING_RATIO: [f64; 2] = [0.05, 1.0];
-
-/// Static deflection beyond what coil springs of a passenger truck have, m. The prototype's springs
-/// settle by 0.32 m (0.89 Hz); at 0.7 Hz, the lowest that the report looks at, it is 0.51 m.
-const COIL_DEFLECTION: f64 = 0.35;
 
 /// Advice on a case and its evaluation.
 pub fn warnings(case: &Case, evaluation: &Evaluation) -> Vec<String> {
@@ -77,41 +69,10 @@ pub fn warnings(case: &Case, evaluation: &Evaluation) -> Vec<String> {
             ));
         }
     }
-    suspension(case, &mut list);
+    let odd = secondary_oddities(&case.vehicle).into_iter();
+    list.extend(odd.map(|oddity| format!("{}: {}", oddity.message, oddity.advice)));
     if case.wheel_rail.conicity < 0.02 {
         list.push("at so low a conicity the vehicle hardly centres itself".into());
     }
     list
-}
-
-/// Secondary suspensions that no truck has in this form.
-fn suspension(case: &Case, list: &mut Vec<String>) {
-    let mass = case.vehicle.carbody.mass;
-    let s = &case.vehicle.suspension.secondary;
-    let has_coils = s.air_spring.is_none();
-    let mut damping = |name: &str, k: f64, c: f64| {
-        let ratio = secondary_damping_ratio(mass, k, c);
-        if ratio > DAMPING_RATIO[1] {
-            list.push(format!(
-                "the damping ratio of the secondary {name} suspension is {ratio:.2}: above 1 the \
-                 dampers hold carbody and trucks together rather than apart"
-            ));
-        } else if ratio < DAMPING_RATIO[0] {
-            list.push(format!(
-                "the damping ratio of the secondary {name} suspension is {ratio:.3}: its resonance \
-                 is hardly damped"
-            ));
-        }
-    };
-    damping("lateral", s.lateral_stiffness, s.lateral_damping);
-    if has_coils {
-        damping("vertical", s.vertical_stiffness, s.vertical_damping);
-        let deflection = case.vehicle.secondary_static_deflection();
-        if deflection > COIL_DEFLECTION {
-            list.push(format!(
-                "the secondary springs settle by {deflection:.2} m under the carbody: more than \
-                 coil springs can, so think of air springs, or limit secondary_static_deflection"
-            ));
-        }
-    }
 }

@@ -12,6 +12,7 @@ use crate::{
         curving::LimitedCurve,
         lateral_modes::{LateralMode, LateralModes},
         passenger_ride::PassengerRide,
+        ride::NoRide,
         vertical_modes::VerticalMode,
     },
     spec,
@@ -71,7 +72,9 @@ pub(super) fn indices(case: &Case, evaluation: &Evaluation) -> Map<String, Value
         "least_damped_mode": modes.least_damped().map(mode),
         "vertical_modes": evaluation.vertical_modes.iter().map(vertical_mode).collect::<Vec<_>>(),
         "lateral": lateral(evaluation),
+        "lateral_status": ride_status(&evaluation.lateral),
         "vertical": vertical(evaluation),
+        "vertical_status": ride_status(&evaluation.vertical),
         "axle_load_n": case.vehicle.axle_load(),
     });
     match object {
@@ -190,6 +193,14 @@ fn passengers(
     insert("sperling_wz".into(), json!(points(ride, |p| p.w_z)));
     insert("third_octave_bands".into(), json!(bands(ride)));
     object
+}
+
+/// Why a ride is null, where it is.
+fn ride_status<T>(ride: &Result<T, NoRide>) -> String {
+    match ride {
+        Ok(_) => "solved".into(),
+        Err(reason) => reason.to_string(),
+    }
 }
 
 /// Null where there is no stationary response.

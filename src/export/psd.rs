@@ -6,7 +6,8 @@ use super::{evaluation_text::title, number::significant, sheet::Sheet, table::Ta
 use crate::{
     case::Case,
     dynamics::{
-        ForcedModel, LateralModel, Poles, VerticalModel, elimination::LANES, lateral, vertical,
+        EigenError, ForcedModel, LateralModel, Poles, VerticalModel, elimination::LANES, lateral,
+        vertical,
     },
     evaluate::response::Response,
 };
@@ -21,8 +22,8 @@ pub struct Spectra {
     pub frequency: Vec<f64>,
     /// Lateral outputs; `None`: unstable at the speed, so there is no stationary response.
     pub lateral: Option<Vec<Column>>,
-    /// Vertical outputs.
-    pub vertical: Vec<Column>,
+    /// Vertical outputs; `None` likewise.
+    pub vertical: Option<Vec<Column>>,
 }
 
 const LATERAL: [(&str, usize); 7] = [
@@ -87,27 +88,28 @@ const VERTICAL: [(&str, usize); 7] = [
 impl Spectra {
     /// Spectra at `points` frequencies, equally spaced on a logarithmic axis over the band of the
     /// case.
-    pub fn new(case: &Case, points: usize) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// [`EigenError`] if it cannot be known whether there is a stationary response.
+    pub fn new(case: &Case, points: usize) -> Result<Self, EigenError> {
         let [low, high] = case.model.frequency_band;
         let step = (high / low).ln() / (points.max(2) - 1) as f64;
         let frequency: Vec<f64> = (0..points.max(2))
             .map(|i| low * (step * i as f64).exp())
             .collect();
-        let model = LateralModel::new(case);
-        let poles = Poles::at(&model.forced.system, case.service.speed);
-        let stable = poles.is_ok_and(|poles| poles.stable());
-        let lateral = stable.then(|| columns(&model.forced, case, &frequency, &LATERAL));
-        let vertical = columns(
-            &VerticalModel::new(case).forced,
-            case,
-            &frequency,
-            &VERTICAL,
-        );
-        Self {
+        let of = |model: &ForcedModel, wanted: &[(&'static str, usize)]| {
+            let poles = Poles::at(&model.system, case.service.speed)?;
+            let stationary = poles.stable();
+            Ok(stationary.then(|| columns(model, case, &frequency, wanted)))
+        };
+        let lateral = of(&LateralModel::new(case).forced, &LATERAL)?;
+        let vertical = of(&VerticalModel::new(case).forced, &VERTICAL)?;
+        Ok(Self {
             frequency,
             lateral,
             vertical,
-        }
+        })
     }
 
     /// As text: accelerations and strokes at every fourth frequency.
@@ -115,7 +117,7 @@ impl Spectra {
         let mut sheet = Sheet::new(&title(name, case));
         for (heading, columns) in [
             ("Lateral", self.lateral.as_ref()),
-            ("Vertical", Some(&self.vertical)),
+            ("Vertical", self.vertical.as_ref()),
         ] {
             let Some(columns) = columns else {
                 sheet.heading(heading);
@@ -170,7 +172,7 @@ impl Spectra {
             "track": case.service.track.name,
             "frequency_hz": self.frequency,
             "lateral": self.lateral.as_deref().map(object),
-            "vertical": object(&self.vertical),
+            "vertical": self.vertical.as_deref().map(object),
         })
     }
 
@@ -179,7 +181,7 @@ impl Spectra {
         let mut table = Table::new();
         table.number("frequency_hz", self.frequency.iter().copied());
         let lateral = self.lateral.iter().flatten().map(|c| ("lateral", c));
-        let vertical = self.vertical.iter().map(|c| ("vertical", c));
+        let vertical = self.vertical.iter().flatten().map(|c| ("vertical", c));
         for (direction, (name, values)) in lateral.chain(vertical) {
             table.number(format!("{direction}_{name}"), values.iter().copied());
         }

@@ -4,7 +4,7 @@
 //! loses at most the line that it was writing.
 
 use std::{
-    fs::File,
+    fs::{File, TryLockError},
     io::{self, BufRead, BufReader, Seek, SeekFrom, Write},
     path::Path,
 };
@@ -52,6 +52,9 @@ pub enum JournalError {
     /// There is nothing to resume.
     #[error("there is no journal of an earlier run")]
     Missing,
+    /// Another process is writing it.
+    #[error("another run is writing into this folder: wait for it or name another folder")]
+    Busy,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -65,27 +68,35 @@ struct Line {
 }
 
 impl Journal {
-    /// Begins a journal, in place of one that may be there.
+    /// Begins a journal, in place of one that may be there. It is locked until dropped.
     ///
     /// # Errors
     ///
-    /// Any error of the file system.
+    /// Any error of the file system, or that another run is writing it.
     pub fn create(path: &Path, header: &Header) -> Result<Self, JournalError> {
         if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
             std::fs::create_dir_all(folder)?;
         }
-        let mut journal = Self {
-            file: File::create(path)?,
-        };
+        // Nothing is cut off before the lock is had.
+        let mut options = File::options();
+        let file = options
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(path)?;
+        lock(&file)?;
+        file.set_len(0)?;
+        let mut journal = Self { file };
         journal.line(header)?;
         Ok(journal)
     }
 
-    /// Opens a journal to go on with it: the measurements in it, and the journal to add to.
+    /// Opens a journal to go on with it: the measurements in it, and the journal to add to, locked
+    /// until dropped.
     ///
     /// # Errors
     ///
-    /// [`JournalError`] if there is none or it belongs to another run.
+    /// [`JournalError`] if there is none, it belongs to another run, or another run is writing it.
     pub fn resume(path: &Path, header: &Header) -> Result<(Self, Vec<Entry>), JournalError> {
         let file = match File::options().read(true).write(true).open(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
@@ -93,6 +104,7 @@ impl Journal {
             }
             other => other?,
         };
+        lock(&file)?;
         let mut reader = BufReader::new(file);
         let mut text = String::new();
         reader.read_line(&mut text)?;
@@ -143,6 +155,18 @@ impl Journal {
         let mut text = serde_json::to_vec(content)?;
         text.push(b'\n');
         self.file.write_all(&text)
+    }
+}
+
+/// Keeps other runs out, until the file is closed or the process is gone.
+fn lock(file: &File) -> Result<(), JournalError> {
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(JournalError::Busy),
+        // Some file systems know no locks.
+        Err(TryLockError::Error(error)) if error.kind() != io::ErrorKind::Unsupported => {
+            Err(error.into())
+        }
+        _ => Ok(()),
     }
 }
 
@@ -201,6 +225,13 @@ mod tests {
         assert_eq!(entries[0].measured, Ok(pieces.clone()));
         assert_eq!(entries[1].measured, Err(Failure::Unstable));
         journal.write(&key(4), &Ok(pieces)).unwrap();
+        for second in [
+            Journal::resume(&path, &header("a")).map(|(journal, _)| journal),
+            Journal::create(&path, &header("a")),
+        ] {
+            assert!(matches!(second, Err(JournalError::Busy)));
+        }
+        drop(journal);
         let (_, entries) = Journal::resume(&path, &header("a")).unwrap();
         assert_eq!(entries.len(), 3);
 

@@ -113,6 +113,10 @@ fn missing(
     keys: impl Iterator<Item = &'static Key<Case>>,
     mistakes: &mut Mistakes,
 ) {
+    // With it `base` is lost, which may have been there.
+    if document.is_no_table("vehicle") {
+        return;
+    }
     let mut tables: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for key in keys {
         if key.need == Need::Required && document.get(key.path).is_none() {

@@ -16,6 +16,8 @@ pub(super) type Value<'a> = Spanned<DeValue<'a>>;
 pub(super) struct Document<'a> {
     entries: BTreeMap<String, &'a Value<'a>>,
     tables: BTreeMap<String, Range<usize>>,
+    /// Paths of tables in whose place something else stands.
+    no_tables: Vec<String>,
 }
 
 impl<'a> Document<'a> {
@@ -34,6 +36,11 @@ impl<'a> Document<'a> {
     /// Where the name of the table `path` stands.
     pub fn table(&self, path: &str) -> Option<Range<usize>> {
         self.tables.get(path).cloned()
+    }
+
+    /// Whether something that is no table stands where `path` and all in it would.
+    pub fn is_no_table(&self, path: &str) -> bool {
+        self.no_tables.iter().any(|table| table == path)
     }
 
     fn collect(
@@ -56,11 +63,17 @@ impl<'a> Document<'a> {
                     self.collect(table, &path, paths, mistakes);
                     self.tables.insert(path, name.span());
                 } else {
-                    mistakes.push(Diagnostic::at(
-                        value.span(),
-                        format!("`{path}` is a table"),
-                        format!("expected a table: write [{path}] and its keys below"),
-                    ));
+                    let is_list = matches!(value.get_ref(), DeValue::Array(_));
+                    let help = "every table stands once, in single brackets";
+                    mistakes.push(
+                        Diagnostic::at(
+                            value.span(),
+                            format!("`{path}` is a table"),
+                            format!("expected a table: write [{path}] and its keys below"),
+                        )
+                        .help(is_list.then(|| help.to_owned())),
+                    );
+                    self.no_tables.push(path);
                 }
             } else {
                 mistakes.push(unknown(name, value, parent, paths));

@@ -6,6 +6,7 @@ mod contradictions;
 mod demands;
 mod design_space;
 mod effects;
+mod secondary;
 mod situation;
 mod usual;
 
@@ -22,6 +23,7 @@ pub(super) fn doubts(spec: &Spec, document: &Document, situations: &[Situation])
     for situation in situations {
         usual::unusual(situation, &mut doubts);
         bodies::strange_bodies(situation, &mut doubts);
+        secondary::odd_secondary(situation, &spec.design, &mut doubts);
         demands::odd_demands(situation, &spec.design, &mut doubts);
     }
     design_space::odd_bounds(spec, document, &mut doubts);
