@@ -3,7 +3,7 @@
 //! Data flow in one direction: a [`spec`] gives a [`case::Case`] ([`vehicle`], [`wheel_rail`],
 //! [`track`]), which the [`dynamics`] turn into equations of motion, [`evaluate`] into performance
 //! indices and [`design`] into the suspension that is best within given limits; [`export`] writes
-//! results. [`closed_form`] and [`comfort`] hold the report's hand formulas and the comfort
+//! results, [`report`] a page of them. [`closed_form`] and [`comfort`] hold the report's hand formulas and the comfort
 //! standards' weightings.
 //!
 //! Everything is in SI units; [`units`] live at the boundary.
@@ -31,6 +31,7 @@ pub mod export;
 pub mod index;
 pub mod optimize;
 pub mod parameter;
+pub mod report;
 pub mod spec;
 pub mod track;
 pub mod units;

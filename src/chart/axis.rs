@@ -237,13 +237,8 @@ mod tests {
 
     #[test]
     fn ranges_are_rounded_to_ticks() {
-        assert_eq!(
-            axis(Scale::Linear, [0.0, 9.1])
-                .rounded()
-                .range
-                .map(f64::to_bits),
-            [0.0_f64, 10.0].map(f64::to_bits)
-        );
+        let linear = axis(Scale::Linear, [0.0, 9.1]).rounded().range;
+        assert!(linear[0].abs() < 1e-12 && (linear[1] / 10.0 - 1.0).abs() < 1e-12);
         let log = axis(Scale::Log, [0.13, 7.0]).holding([0.03]).range;
         assert!((log[0] / 0.02 - 1.0).abs() < 1e-12 && (log[1] / 10.0 - 1.0).abs() < 1e-12);
     }

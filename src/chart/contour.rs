@@ -208,8 +208,8 @@ mod tests {
             let found = contour(&lines, &lines, &values, &[], level);
             assert_eq!(found.len(), 2, "{level}");
             for line in &found {
-                let side = line[0][0].signum();
-                assert!(line.iter().all(|p| p[0] * side > 0.0), "{level}");
+                let left = line[0][0] < 0.0;
+                assert!(line.iter().all(|p| (p[0] < 0.0) == left), "{level}");
             }
         }
     }

@@ -241,7 +241,7 @@ fn spans(text: &Text, size: f64) -> String {
             let small = SMALL * size;
             let _ = write!(
                 out,
-                "<tspan dy=\"{shift:.1}\" style=\"font-size:{small:.1}px\">{piece}</tspan>"
+                "<tspan dy=\"{shift:.1}\" font-size=\"{small:.1}\">{piece}</tspan>"
             );
         }
     }

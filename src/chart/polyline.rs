@@ -8,7 +8,7 @@ pub(super) fn visible(panel: &Panel, frame: &Frame, piece: &[[f64; 2]]) -> Vec<V
     let mut open = false;
     for pair in piece.windows(2) {
         let [p, q] = [pair[0], pair[1]].map(|point| frame.point(panel, point));
-        let Some([a, b]) = clip(frame, p, q) else {
+        let Some(([a, b], whole)) = clip(frame, p, q) else {
             open = false;
             continue;
         };
@@ -16,13 +16,14 @@ pub(super) fn visible(panel: &Panel, frame: &Frame, piece: &[[f64; 2]]) -> Vec<V
             Some(part) => part.push(b),
             None => parts.push(vec![a, b]),
         }
-        open = b.map(f64::to_bits) == q.map(f64::to_bits);
+        open = whole;
     }
     parts
 }
 
-/// The part of a straight line that lies in the frame (Liang and Barsky).
-fn clip(frame: &Frame, p: [f64; 2], q: [f64; 2]) -> Option<[[f64; 2]; 2]> {
+/// The part of a straight line that lies in the frame, and whether it goes on to q (Liang and
+/// Barsky).
+fn clip(frame: &Frame, p: [f64; 2], q: [f64; 2]) -> Option<([[f64; 2]; 2], bool)> {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     let low = [frame.x, frame.y];
     let high = [frame.x + frame.width, frame.y + frame.height];
@@ -43,7 +44,7 @@ fn clip(frame: &Frame, p: [f64; 2], q: [f64; 2]) -> Option<[[f64; 2]; 2]> {
     }
     let at = |t: f64| [0, 1].map(|k| p[k] + t * (q[k] - p[k]));
     let end = if to >= 1.0 { q } else { at(to) };
-    (from <= to).then(|| [at(from), end])
+    (from <= to).then(|| ([at(from), end], to >= 1.0))
 }
 
 /// Length of a line.

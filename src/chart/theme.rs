@@ -37,7 +37,6 @@ const COLOURS: [(&str, &str, &str); 12] = [
 
 /// The style sheet of a drawing. All its rules begin with `.bogie-chart`, so that it disturbs
 /// nothing else on a page.
-#[expect(clippy::too_many_lines, reason = "one sheet, rule by rule")]
 pub fn stylesheet(theme: Theme) -> String {
     let colour = |name: &str| match theme {
         Theme::Print => COLOURS
@@ -103,6 +102,20 @@ pub fn stylesheet(theme: Theme) -> String {
         ".line",
         "fill:none;stroke-linejoin:round;stroke-linecap:butt",
     );
+    inks(&mut rule, &colour);
+    rule(
+        ".halo",
+        &format!("stroke:{};stroke-width:1.5", colour("paper")),
+    );
+    lines(&mut rule);
+    match theme {
+        Theme::Print => css,
+        Theme::Page | Theme::Bare => variables() + &css,
+    }
+}
+
+/// Rules for what has an ink.
+fn inks(rule: &mut impl FnMut(&str, &str), colour: &impl Fn(&str) -> String) {
     for ink in Ink::ALL {
         let name = ink.class();
         rule(
@@ -129,10 +142,10 @@ pub fn stylesheet(theme: Theme) -> String {
             ),
         );
     }
-    rule(
-        ".halo",
-        &format!("stroke:{};stroke-width:1.5", colour("paper")),
-    );
+}
+
+/// Rules for interruptions and widths of lines.
+fn lines(rule: &mut impl FnMut(&str, &str)) {
     for dash in Dash::ALL {
         let pattern = match dash {
             Dash::Solid => continue,
@@ -156,22 +169,20 @@ pub fn stylesheet(theme: Theme) -> String {
             &format!("stroke-width:{width}"),
         );
     }
-    match theme {
-        Theme::Print => css,
-        Theme::Page | Theme::Bare => variables() + &css,
-    }
 }
 
 /// Colours as variables, for light paper and, where the reader prefers it, for dark.
 fn variables() -> String {
     let list = |dark: bool| {
-        let colour = |(name, light, night): &(&str, &str, &str)| {
-            format!("--chart-{name}:{};", if dark { night } else { light })
-        };
-        COLOURS.iter().map(colour).collect::<Vec<_>>().concat()
+        COLOURS
+            .iter()
+            .fold(String::new(), |mut list, (name, light, night)| {
+                let _ = write!(list, "--chart-{name}:{};", if dark { night } else { light });
+                list
+            })
     };
     format!(
-        ".bogie-chart{{{}}}\n@media (prefers-color-scheme:dark){{.bogie-chart{{{}}}}}\n",
+        ".bogie-chart{{{}}}\n@media screen and (prefers-color-scheme:dark){{.bogie-chart{{{}}}}}\n",
         list(false),
         list(true)
     )

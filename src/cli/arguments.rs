@@ -24,6 +24,8 @@ pub enum Command {
     Evaluate(Run),
     /// Find out which parameters and inputs matter to the performance, and which do not
     Sensitivity(Sensitivity),
+    /// Write a page with all results and charts of the design as it stands
+    Report(Report),
     /// List the modes of vibration, and damping against speed
     Modes(Modes),
     /// Show the vehicle in a curve, its limits and the performance boundary
@@ -83,6 +85,21 @@ pub struct Optimize {
 
     #[command(flatten)]
     pub search: Search,
+
+    /// Also write a page with all results and charts (HTML)
+    #[arg(long, value_name = "FILE.html")]
+    pub report: Option<PathBuf>,
+}
+
+/// Options of `report`.
+#[derive(Debug, Args)]
+pub struct Report {
+    #[command(flatten)]
+    pub source: Source,
+
+    /// Page to write (HTML), or - for standard output
+    #[arg(value_name = "FILE.html")]
+    pub page: PathBuf,
 }
 
 /// Options of `pareto`.

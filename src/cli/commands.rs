@@ -24,6 +24,7 @@ pub fn evaluate(run: &Run) -> Result<Done, Failure> {
         spec,
         digest,
         warnings: doubts,
+        ..
     } = input::read(&run.source.spec)?;
     let evaluation = Evaluation::new(&spec.case).map_err(failed)?;
     let warnings = warnings(&spec.case, &evaluation);
@@ -46,6 +47,7 @@ pub fn modes(call: &Modes) -> Result<Done, Failure> {
         spec,
         digest,
         warnings,
+        ..
     } = input::read(&call.run.source.spec)?;
     let speeds = if call.speeds.is_empty() {
         (1..=10)
@@ -73,6 +75,7 @@ pub fn curve(call: &Curve) -> Result<Done, Failure> {
         spec,
         digest,
         warnings,
+        ..
     } = input::read(&call.run.source.spec)?;
     if let Some(degree) = call.degree
         && !(degree > 0.0 && degree <= MAX_DEGREE)
@@ -98,6 +101,7 @@ pub fn psd(call: &Psd) -> Result<Done, Failure> {
         spec,
         digest,
         warnings,
+        ..
     } = input::read(&call.run.source.spec)?;
     let spectra = Spectra::new(&spec.case, call.points as usize).map_err(failed)?;
     for (model, columns) in [

@@ -24,28 +24,34 @@ use super::{
     commands::{PROGRAM, deliver, failed, together, with_origin, wrong},
     input, interrupt, output,
     progress::Line,
+    report,
 };
 
 pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
+    let named = input::read(&call.run.source.spec)?;
+    if let Some(page) = &call.report {
+        report::ready(page)?;
+    }
     let input::Named {
         name,
         spec,
         digest,
         warnings: doubts,
-    } = input::read(&call.run.source.spec)?;
+        ..
+    } = &named;
     let progress = Line::new();
-    let header = header("optimize", &digest);
+    let header = header("optimize", digest);
     let archive = archive(&progress, &call.search, call.run.out.as_deref(), &header)?;
-    let designed = procedure::design(&spec, &archive);
+    let designed = procedure::design(spec, &archive);
     let matters = designed.as_ref().ok().map(|result| {
         let watch = Watch {
             interrupt: Some(interrupt::flag()),
             progress: &progress,
         };
-        sensitivity::screen(&result.case, &indices_of(&spec), spec.design.seed, &watch)
+        sensitivity::screen(&result.case, &indices_of(spec), spec.design.seed, &watch)
     });
     progress.finish();
-    report(&archive);
+    tell(&archive);
     let result = designed.map_err(|error| match error {
         DesignError::NothingOpen | DesignError::NoRequirement => Failure::Invalid(format!(
             "error: {}: {error}",
@@ -57,12 +63,15 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
     deliver(
         &call.run,
         "optimize",
-        || design_text::design(&name, &result, &spec.demands, matters.as_ref(), &warnings),
+        || design_text::design(name, &result, &spec.demands, matters.as_ref(), &warnings),
         || {
-            let all = together(&doubts, &warnings);
-            design_json::design(&name, &result, &spec, &digest, matters.as_ref(), &all)
+            let all = together(doubts, &warnings);
+            design_json::design(name, &result, spec, digest, matters.as_ref(), &all)
         },
     )?;
+    if let Some(page) = &call.report {
+        report::optimized(&named, &result, matters.as_ref(), call, page)?;
+    }
     Ok(if result.met() {
         Done::Complete
     } else {
@@ -76,6 +85,7 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
         mut spec,
         digest,
         warnings,
+        ..
     } = input::read(&call.source.spec)?;
     if !call.indices.is_empty() {
         spec.front.indices = indices(&call.indices)?;
@@ -106,7 +116,7 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
     let archive = archive(&progress, &call.search, call.out.as_deref(), &header)?;
     let front = pareto::pareto(&spec, &archive);
     progress.finish();
-    report(&archive);
+    tell(&archive);
     let front = front.map_err(failed)?;
     if front.points.is_empty() && front.stopped.is_none() {
         eprintln!("no design keeps the remaining requirements and limits: there is no front");
@@ -150,6 +160,7 @@ pub fn sensitivity(call: &Sensitivity) -> Result<Done, Failure> {
         spec,
         digest,
         warnings,
+        ..
     } = input::read(&call.source.spec)?;
     if !(0.0..1.0).contains(&call.spread) {
         return Err(wrong(&format!(
@@ -261,7 +272,7 @@ fn archive<'a>(
 }
 
 /// What a user should know of a run beside its result.
-fn report(archive: &Archive) {
+pub(super) fn tell(archive: &Archive) {
     if let Some(error) = archive.journal_error() {
         eprintln!("warning: the journal could not be written ({error}): no --resume from here");
     }

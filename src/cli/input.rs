@@ -16,7 +16,9 @@ use super::Failure;
 pub struct Named {
     pub name: String,
     pub spec: Spec,
-    /// SHA-256 of the spec's text.
+    /// The spec's text.
+    pub source: String,
+    /// SHA-256 of it.
     pub digest: String,
     /// What is doubtful in the spec, a sentence each.
     pub warnings: Vec<String>,
@@ -38,10 +40,12 @@ pub fn read(path: &Path) -> Result<Named, Failure> {
     file.show(&spec.doubts);
     let digest = format!("{:x}", Sha256::digest(&file.bytes));
     let warnings = spec.doubts.sentences().collect();
+    let source = file.text().into_owned();
     let name = file.name;
     Ok(Named {
         name,
         spec,
+        source,
         digest,
         warnings,
     })

@@ -12,6 +12,7 @@ mod input;
 mod interrupt;
 mod output;
 mod progress;
+mod report;
 
 use std::process::ExitCode;
 
@@ -47,6 +48,7 @@ pub fn run() -> ExitCode {
         Command::Pareto(call) => design::pareto(call),
         Command::Sensitivity(call) => design::sensitivity(call),
         Command::Evaluate(call) => commands::evaluate(call),
+        Command::Report(call) => report::report(call),
         Command::Modes(call) => commands::modes(call),
         Command::Curve(call) => commands::curve(call),
         Command::Psd(call) => commands::psd(call),

@@ -1,12 +1,18 @@
 //! What the design procedure hands over.
 
-use super::{conflict::Conflict, explain::Explained, margin::Margin};
+use super::{
+    conflict::Conflict,
+    explain::Explained,
+    margin::{Margin, margins},
+};
 use crate::{
     case::Case,
+    dynamics::EigenError,
     evaluate::Evaluation,
     index::Index,
     optimize::{archive::Stop, local::Status, problem::Failure, solve::Effort},
     parameter::TradeOff,
+    spec::Spec,
 };
 
 /// What one trade-off gave, or all at once.
@@ -78,6 +84,26 @@ pub struct InCondition {
     pub evaluation: Evaluation,
 }
 
+/// Performance of a case in the further conditions of a spec.
+pub(super) fn in_conditions(spec: &Spec, case: &Case) -> Result<Vec<InCondition>, EigenError> {
+    let conditions = spec.conditions.iter().map(|condition| {
+        let case = condition.apply(case);
+        Ok(InCondition {
+            name: condition.name.clone(),
+            evaluation: Evaluation::new(&case)?,
+            case,
+        })
+    });
+    conditions.collect()
+}
+
+/// Performance of a case at half the creep coefficients (4.5.4).
+pub(super) fn half_kalker(case: &Case) -> Result<Evaluation, EigenError> {
+    let mut half = case.clone();
+    half.wheel_rail.creep_factor *= 0.5;
+    Evaluation::new(&half)
+}
+
 /// A finished design.
 #[derive(Debug, Clone)]
 pub struct DesignResult {
@@ -110,6 +136,30 @@ pub struct DesignResult {
 }
 
 impl DesignResult {
+    /// A spec's design as it stands, with nothing searched for.
+    ///
+    /// # Errors
+    ///
+    /// [`EigenError`] if the eigenvalues of a model cannot be had.
+    pub fn as_given(spec: &Spec) -> Result<Self, EigenError> {
+        let evaluation = Evaluation::new(&spec.case)?;
+        Ok(Self {
+            before: evaluation.clone(),
+            half_kalker: half_kalker(&spec.case)?,
+            conditions: in_conditions(spec, &spec.case)?,
+            margins: margins(&spec.case, &spec.demands, &spec.conditions),
+            case: spec.case.clone(),
+            evaluation,
+            stages: Vec::new(),
+            rounds: 0,
+            settled: true,
+            joint: None,
+            conflict: None,
+            effort: Effort::default(),
+            stopped: None,
+        })
+    }
+
     /// Demands that are not met.
     pub fn unmet(&self) -> impl Iterator<Item = &Margin> {
         self.margins.iter().filter(|m| !m.met())

@@ -11,7 +11,7 @@ use super::{
     conflict::conflict,
     explain::Explained,
     margin::{margins, worst_value},
-    outcome::{Compared, DesignResult, InCondition, Joint, Profile, StageResult},
+    outcome::{Compared, DesignResult, Joint, Profile, StageResult, half_kalker, in_conditions},
     search::{Searched, search},
     study::{Role, Study},
     tasks::{Task, Tasks},
@@ -403,16 +403,6 @@ impl Procedure<'_> {
         }
         let spec = self.spec;
         let evaluation = Evaluation::new(&case)?;
-        let mut half = case.clone();
-        half.wheel_rail.creep_factor *= 0.5;
-        let conditions = spec.conditions.iter().map(|condition| {
-            let case = condition.apply(&case);
-            Ok(InCondition {
-                name: condition.name.clone(),
-                evaluation: Evaluation::new(&case)?,
-                case,
-            })
-        });
         let margins = margins(&case, &spec.demands, &spec.conditions);
         let short = margins.iter().any(|m| !m.met());
         let conflict = if short && best.solved.status == Status::Infeasible {
@@ -436,9 +426,9 @@ impl Procedure<'_> {
             None
         };
         Ok(DesignResult {
-            half_kalker: Evaluation::new(&half)?,
+            half_kalker: half_kalker(&case)?,
             before: Evaluation::new(&spec.case)?,
-            conditions: conditions.collect::<Result<_, EigenError>>()?,
+            conditions: in_conditions(spec, &case)?,
             evaluation,
             case,
             stages,

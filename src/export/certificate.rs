@@ -18,7 +18,7 @@ use crate::{
 };
 
 /// How the search ended, and what the limits cost.
-pub(super) fn certificate(sheet: &mut Sheet, explained: &Explained) {
+pub(crate) fn certificate(sheet: &mut Sheet, explained: &Explained) {
     for price in &explained.prices {
         sheet.line(&price_line(explained, price));
     }
@@ -107,7 +107,7 @@ fn objective(index: Index, si: f64, us: bool) -> String {
 }
 
 /// Every demand and what is reached.
-pub(super) fn margins(sheet: &mut Sheet, margins: &[Margin]) {
+pub(crate) fn margins(sheet: &mut Sheet, margins: &[Margin]) {
     if margins.is_empty() {
         return;
     }
@@ -120,7 +120,8 @@ pub(super) fn margins(sheet: &mut Sheet, margins: &[Margin]) {
     );
 }
 
-fn margin_row(margin: &Margin) -> Vec<String> {
+/// Index, condition, asked in SI and US units, reached likewise, margin, verdict.
+pub(crate) fn margin_row(margin: &Margin) -> Vec<String> {
     let quantity = margin.index.quantity();
     let [asked_si, asked_us] = both(quantity, margin.required);
     let ([si, us], share) = match &margin.reached {
@@ -153,7 +154,7 @@ fn margin_row(margin: &Margin) -> Vec<String> {
 }
 
 /// Which demands conflict, and what each alone would have to become.
-pub(super) fn conflict(sheet: &mut Sheet, result: &DesignResult) {
+pub(crate) fn conflict(sheet: &mut Sheet, result: &DesignResult) {
     let Some(conflict) = &result.conflict else {
         return;
     };
@@ -188,7 +189,7 @@ pub(super) fn conflict(sheet: &mut Sheet, result: &DesignResult) {
 }
 
 /// The joint optimisation beside the sequential design.
-pub(super) fn joint(sheet: &mut Sheet, result: &DesignResult) {
+pub(crate) fn joint(sheet: &mut Sheet, result: &DesignResult) {
     let Some(joint) = &result.joint else { return };
     trade_off(sheet, &joint.stage);
     let cell = |index: Index, value: &Result<f64, _>| match value {

@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Table of all that apply.
-pub(super) fn table(sheet: &mut Sheet, case: &Case, evaluation: &Evaluation) {
+pub(crate) fn table(sheet: &mut Sheet, case: &Case, evaluation: &Evaluation) {
     sheet.heading("Cross-checks: closed forms of the report beside the full models");
     let rows: Vec<Vec<String>> = cross_checks(case, evaluation)
         .iter()

@@ -71,10 +71,10 @@ pub fn design(
 }
 
 /// Inputs named per index.
-const MATTERS: usize = 6;
+pub(crate) const MATTERS: usize = 6;
 
 /// A value in both unit systems, as in "320 km/h (200 mph)".
-pub(super) fn value(quantity: Quantity, si: f64) -> String {
+pub(crate) fn value(quantity: Quantity, si: f64) -> String {
     let [si, us] = both(quantity, si);
     if us.is_empty() {
         si
@@ -83,7 +83,8 @@ pub(super) fn value(quantity: Quantity, si: f64) -> String {
     }
 }
 
-fn verdict(sheet: &mut Sheet, result: &DesignResult) {
+/// Whether everything is met; if not, what is not.
+pub(crate) fn verdict(sheet: &mut Sheet, result: &DesignResult) {
     if let Some(stop) = result.stopped {
         sheet.heading(&format!(
             "Ended early, {stop}: this is the best found so far."
@@ -118,7 +119,7 @@ fn verdict(sheet: &mut Sheet, result: &DesignResult) {
 }
 
 /// Name of a trade-off as a heading.
-pub(super) fn stage_name(trade_off: Option<TradeOff>) -> String {
+pub(crate) fn stage_name(trade_off: Option<TradeOff>) -> String {
     let mut name = trade_off.map_or_else(|| "all at once".into(), |t| t.to_string());
     if let Some(first) = name.get_mut(0..1) {
         first.make_ascii_uppercase();
@@ -126,7 +127,7 @@ pub(super) fn stage_name(trade_off: Option<TradeOff>) -> String {
     name
 }
 
-pub(super) fn trade_off(sheet: &mut Sheet, stage: &StageResult) {
+pub(crate) fn trade_off(sheet: &mut Sheet, stage: &StageResult) {
     let explained = &stage.explained;
     sheet.heading(&format!(
         "{}: {}",
@@ -204,7 +205,7 @@ fn profile_row(profile: &Profile) -> Vec<String> {
     ]
 }
 
-pub(super) fn status(status: Status) -> &'static str {
+pub(crate) fn status(status: Status) -> &'static str {
     match status {
         Status::Optimal => "optimal",
         Status::Stalled => "feasible, but not converged to an optimum",
@@ -214,9 +215,15 @@ pub(super) fn status(status: Status) -> &'static str {
     }
 }
 
-/// The performance table of Table 4.7.1: as given, designed, and at half Kalker.
 fn performance(sheet: &mut Sheet, result: &DesignResult) {
     sheet.heading("Performance (Table 4.7.1)");
+    let mut header = vec!["", "", "as given", "designed", "at half Kalker"];
+    header.extend(result.conditions.iter().map(|c| c.name.as_str()));
+    sheet.table(&header, &[1], &performance_rows(result));
+}
+
+/// Rows of Table 4.7.1: what, unit, as given, designed, at half Kalker, and in every condition.
+pub(crate) fn performance_rows(result: &DesignResult) -> Vec<Vec<String>> {
     let mut columns = vec![&result.before, &result.evaluation, &result.half_kalker];
     columns.extend(result.conditions.iter().map(|c| &c.evaluation));
     let line = |name: &str, unit: &str, of: &dyn Fn(&Evaluation) -> Option<f64>, factor: f64| {
@@ -302,12 +309,11 @@ fn performance(sheet: &mut Sheet, result: &DesignResult) {
             factor,
         ));
     }
-    let mut header = vec!["", "", "as given", "designed", "at half Kalker"];
-    header.extend(result.conditions.iter().map(|c| c.name.as_str()));
-    sheet.table(&header, &[1], &rows);
+    rows
 }
 
-fn form_row(line: &Line) -> Vec<String> {
+/// Step, entry, symbol, SI, US.
+pub(crate) fn form_row(line: &Line) -> Vec<String> {
     let [si, us] = line
         .value
         .map_or(["–".into(), String::new()], |v| both(line.quantity, v));

@@ -32,7 +32,7 @@ pub fn evaluation(name: &str, case: &Case, evaluation: &Evaluation, warnings: &[
     sheet.finish()
 }
 
-pub(super) fn title(name: &str, case: &Case) -> String {
+pub(crate) fn title(name: &str, case: &Case) -> String {
     let [si, us] = both(Quantity::Speed, case.service.speed);
     format!(
         "{name} at {si} ({us}) on {}, conicity {}",
@@ -41,7 +41,7 @@ pub(super) fn title(name: &str, case: &Case) -> String {
     )
 }
 
-pub(super) fn stability(sheet: &mut Sheet, evaluation: &Evaluation) {
+pub(crate) fn stability(sheet: &mut Sheet, evaluation: &Evaluation) {
     sheet.heading("Stability");
     let mut rows = Vec::new();
     let found = &evaluation.stability;
@@ -96,7 +96,7 @@ pub(super) fn stability(sheet: &mut Sheet, evaluation: &Evaluation) {
     sheet.table(&[], &[3], &rows);
 }
 
-fn curving(sheet: &mut Sheet, evaluation: &Evaluation) {
+pub(crate) fn curving(sheet: &mut Sheet, evaluation: &Evaluation) {
     sheet.heading("Curving at zero cant deficiency");
     let limits = match &evaluation.curving {
         Ok(limits) => limits,
@@ -129,7 +129,7 @@ fn curving(sheet: &mut Sheet, evaluation: &Evaluation) {
     sheet.table(&[], &[4], &rows);
 }
 
-fn ride(sheet: &mut Sheet, evaluation: &Evaluation) {
+pub(crate) fn ride(sheet: &mut Sheet, evaluation: &Evaluation) {
     sheet.heading("Lateral ride, RMS");
     match &evaluation.lateral {
         Err(reason) => sheet.line(&format!("none: {reason}")),
@@ -217,31 +217,31 @@ fn strokes(name: &str, rms: &[f64]) -> Vec<String> {
     cells
 }
 
-pub(super) fn constraint_table(sheet: &mut Sheet, checks: &[Check]) {
+pub(crate) fn constraint_table(sheet: &mut Sheet, checks: &[Check]) {
     sheet.heading("Constraints (nominal limits of 3.3, 3.5.3 and 4.3)");
-    let rows: Vec<Vec<String>> = checks
-        .iter()
-        .map(|check| {
-            let [si, us] = both(check.quantity, check.value);
-            let [si_limit, us_limit] = both(check.quantity, check.limit);
-            let sign = if check.at_least { "≥" } else { "≤" };
-            let limit_us = if us_limit.is_empty() {
-                us_limit
-            } else {
-                format!("{sign} {us_limit}")
-            };
-            vec![
-                if check.passed() { "ok" } else { "EXCEEDED" }.to_string(),
-                check.name.clone(),
-                si,
-                format!("{sign} {si_limit}"),
-                us,
-                limit_us,
-                check.source.to_string(),
-            ]
-        })
-        .collect();
+    let rows: Vec<Vec<String>> = checks.iter().map(check_row).collect();
     sheet.table(&[], &[1, 6], &rows);
+}
+
+/// Verdict, name, value and limit in SI, value and limit in US units, section of the report.
+pub(crate) fn check_row(check: &Check) -> Vec<String> {
+    let [si, us] = both(check.quantity, check.value);
+    let [si_limit, us_limit] = both(check.quantity, check.limit);
+    let sign = if check.at_least { "≥" } else { "≤" };
+    let limit_us = if us_limit.is_empty() {
+        us_limit
+    } else {
+        format!("{sign} {us_limit}")
+    };
+    vec![
+        if check.passed() { "ok" } else { "EXCEEDED" }.to_string(),
+        check.name.clone(),
+        si,
+        format!("{sign} {si_limit}"),
+        us,
+        limit_us,
+        check.source.to_string(),
+    ]
 }
 
 fn row(name: &str, [si, us]: [String; 2], note: &str) -> Vec<String> {

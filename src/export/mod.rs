@@ -1,20 +1,20 @@
 //! Results as text, JSON, CSV and Parquet.
 
-mod certificate;
+pub(crate) mod certificate;
 pub mod check;
-mod cross_checks;
+pub(crate) mod cross_checks;
 pub mod curve;
 pub mod design_json;
 pub mod design_text;
 pub mod evaluation_json;
-mod evaluation_text;
+pub(crate) mod evaluation_text;
 pub mod file;
 pub mod modes;
 pub mod number;
 pub mod pareto;
 pub mod psd;
 pub mod sensitivity;
-mod sheet;
+pub(crate) mod sheet;
 pub mod table;
 
 pub use evaluation_text::evaluation;

@@ -3,11 +3,13 @@
 
 mod command;
 mod drawing;
+mod gallery;
 mod lateral_ride;
 mod modes;
 mod stability_curving;
 #[path = "../support/mod.rs"]
 mod support;
+mod track;
 mod vertical_ride;
 
 use bogie::{

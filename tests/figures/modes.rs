@@ -70,6 +70,15 @@ fn figure_4_5_7() {
         .find(|w| w[0][1] > 0.0 && w[1][1] <= 0.0)
         .unwrap()[0][0];
     assert_ratio("critical speed", zero / MPH, 280.0, 0.02);
+    // The second critical mode, of the wheelsets, is damped less and less too.
+    let second = panel.family("other").unwrap().curves.iter();
+    let second = second.filter(|mode: &&Curve| at(mode, 110.0 * MPH) > 0.9);
+    let falls = |mode: &Curve| {
+        [50.0, 110.0, 150.0, 280.0]
+            .map(|v| at(mode, v * MPH))
+            .is_sorted_by(|a, b| a > b)
+    };
+    assert!(second.clone().count() > 0 && second.clone().all(falls));
     let carbody = panel.family("other").unwrap().curves.iter();
     let flat = carbody.filter(|mode: &&Curve| at(mode, 110.0 * MPH) < 0.3);
     assert_eq!(

@@ -49,6 +49,12 @@ fn figure_4_5_5() {
                 .total_cmp(&(b.at[1] - tip[1]).abs())
         });
     assert_eq!(left.unwrap().label, "2 %");
+    // At the FRA's 3.07° about 20 % should be left; here 45 %.
+    let fra = panel
+        .marks
+        .iter()
+        .find(|m| (m.at[1].to_degrees() - 3.0).abs() < 0.01);
+    assert_eq!(fra.unwrap().label, "45 %");
 }
 
 /// 4.5.2 of Figure 4.5.6: the degree curve rises as K_b falls, hardly depends on K_py, and rises
@@ -75,6 +81,8 @@ fn figure_4_5_6() {
             assert!(high > low, "{k_b} {k_py}: {low} {high}");
         }
     }
+    // Towards a rigid truck the conicity does not help.
+    assert!(degree(3, 1e7, 5e5) < 0.9 * degree(1, 1e7, 5e5));
     // A factor of 50 in K_py changes it by less than a fifth of what one of 33 in K_b does.
     for k_b in [1e6, 3e6] {
         let change = degree(1, k_b, 1e5) / degree(1, k_b, 5e6);
@@ -109,8 +117,9 @@ fn figure_4_5_8() {
 }
 
 /// 4.5.3: for small K_b the critical speed is below the operating speed; it rises with K_b and
-/// falls again towards a rigid truck. As conicity grows it falls (for K_b below 1e6 ft-lb/rad
-/// also the other way round: validation.md).
+/// falls again towards a rigid truck. As conicity grows it falls (but for K_b below 1.8e5
+/// ft-lb/rad, where small conicities hunt at low speeds: validation.md). 4.5.4: a higher critical
+/// speed needs a higher K_b, and so does a greater conicity at the same speed.
 #[test]
 fn figure_4_5_9() {
     let spec = stability_column();
@@ -120,15 +129,38 @@ fn figure_4_5_9() {
     assert!(at(own, 2e5 * LBF_FT) < 110.0 * MPH);
     assert!(at(own, 1.9e7 * LBF_FT) < 0.85 * top[1]);
     assert!((3e6..7e6).contains(&(top[0] / LBF_FT)), "{top:?}");
-    for k_b in [1e6, 3e6, 1e7] {
-        let falling = CONICITIES
-            .map(|conicity| at(curve(&figure, 0, &format!("λ = {conicity}")), k_b * LBF_FT));
+    let speeds = |k_b: f64| {
+        CONICITIES.map(|conicity| at(curve(&figure, 0, &format!("λ = {conicity}")), k_b * LBF_FT))
+    };
+    for k_b in [2e5, 1e6, 3e6, 1e7] {
+        let falling = speeds(k_b);
         assert!(falling.is_sorted_by(|a, b| a > b), "{k_b}: {falling:?}");
+    }
+    let soft = speeds(1.1e5);
+    assert!(soft[..3].iter().all(|v| *v < soft[4]), "{soft:?}");
+    let needed = |conicity: f64, speed: f64| {
+        let points: Vec<[f64; 2]> = curve(&figure, 0, &format!("λ = {conicity}"))
+            .points()
+            .collect();
+        let reached = points.iter().find(|p| p[1] >= speed * MPH);
+        reached.map_or(f64::INFINITY, |p| p[0] / LBF_FT)
+    };
+    for speed in [100.0, 150.0] {
+        let rising = CONICITIES.map(|conicity| needed(conicity, speed));
+        assert!(rising.is_sorted_by(|a, b| a < b), "{speed} mph: {rising:?}");
+    }
+    for conicity in CONICITIES {
+        let rising = [100.0, 125.0, 150.0, 170.0].map(|speed| needed(conicity, speed));
+        assert!(
+            rising.is_sorted_by(|a, b| a < b),
+            "λ {conicity}: {rising:?}"
+        );
     }
 }
 
 /// 4.7 reads 220 and 270 mph off Figure 4.6.5 at half the primary stiffness, for 1e6 and 6e6
-/// ft-lb/rad: read to 10 mph. Below 1e6 the critical speed hardly depends on K_sψ, above it rises.
+/// ft-lb/rad: read to 10 mph. Below 5e6 the critical speed should hardly depend on K_sψ: here
+/// below 1e6; above it rises (validation.md).
 #[test]
 fn figure_4_6_5() {
     let spec = stability_column();
@@ -140,6 +172,32 @@ fn figure_4_6_5() {
     assert!(speed(1e6) / speed(1.1e5) < 1.06);
     let rising = [1e6, 3e6, 6e6, 1e7].map(speed);
     assert!(rising.is_sorted_by(|a, b| a < b), "{rising:?}");
+    for label in ["design’s primary stiffnesses", "2 × primary stiffnesses"] {
+        let speed = |k: f64| at(curve(&figure, 0, label), k * LBF_FT);
+        assert!(speed(1e6) / speed(1.1e5) < 1.08);
+        assert!((1.2..1.35).contains(&(speed(5e6) / speed(1e6))));
+    }
+}
+
+/// What 4.7 reads off Figures 4.6.1 and 4.6.2 at the designs of its examples. The critical speed of
+/// the second, 160 mph, is 143 mph here and 139 mph in the report's own full model.
+#[test]
+fn readings_of_the_contours() {
+    let spec = stability_column();
+    let mut book = workbook(&spec);
+    book.grid = 25;
+    let read = |conicity: usize, k_b: f64, k_py: f64| {
+        let [x, y] = book.stiffness_axes();
+        let field = book.stability_curving(conicity);
+        let at = [k_b * LBF_FT, k_py * LBF_PER_FT];
+        [0, 1].map(|layer| field.value(layer, at, [&x, &y]).unwrap())
+    };
+    let [degree, speed] = read(1, 1.8e6, 2e5);
+    assert_ratio("example 1, degree curve", degree, 1.5, 0.09);
+    assert_ratio("example 1, critical speed", speed / MPH, 200.0, 0.05);
+    let [degree, speed] = read(2, 2e6, 2e5);
+    assert_ratio("example 2, degree curve", degree, 2.2, 0.04);
+    assert_ratio("example 2, critical speed", speed / MPH, 0.89 * 160.0, 0.02);
 }
 
 /// 4.5.4: above 175 mph λ = 0.05 allows the tightest curves, from 100 to 175 mph λ = 0.1, below
@@ -158,16 +216,19 @@ fn figure_4_5_13() {
             .filter(|conicity| degree(*conicity).is_finite())
             .max_by(|a, b| degree(*a).total_cmp(&degree(*b)))
             .unwrap()
+            .to_string()
     };
     for speed in [60.0, 70.0, 80.0] {
-        assert_ratio("best conicity", best(speed), 0.15, 1e-12);
+        assert_eq!(best(speed), "0.15", "{speed}");
     }
     for speed in [110.0, 125.0, 140.0, 155.0] {
-        assert_ratio("best conicity", best(speed), 0.1, 1e-12);
+        assert_eq!(best(speed), "0.1", "{speed}");
     }
     for speed in [193.0, 225.0, 250.0] {
-        assert_ratio("best conicity", best(speed), 0.05, 1e-12);
+        assert_eq!(best(speed), "0.05", "{speed}");
     }
+    let at_75 = |conicity: f64| at(curve(&figure, 0, &format!("λ = {conicity}")), 75.0 * MPH);
+    assert!(at_75(0.25) < 0.9 * at_75(0.1));
 }
 
 /// 4.5.2: above 7500 ft-lb the degree curve does not depend on T_sψ for K_sψ below 1e6 ft-lb/rad.

@@ -13,11 +13,14 @@
 //! assert_eq!(figure.name, "track-crosslevel");
 //! ```
 
+mod breakaway;
 mod comfort;
 mod critical_speed;
 mod curving;
+mod followed;
 mod modes;
 mod performance;
+mod plane;
 mod root_locus;
 mod sampling;
 mod single_mode;
@@ -32,8 +35,8 @@ mod unbalance;
 mod value;
 mod workbook;
 
+use plane::{AVERAGE, CG, Plane, REAR};
 use strokes::{Over, Shown};
-use trade_off::{AVERAGE, CG, Plane, REAR};
 use workbook::MPH;
 pub use workbook::{CONICITIES, Progress, Workbook};
 
@@ -123,7 +126,7 @@ pub const BOOK: [Entry; 38] = [
         |b, e| trade_off::draw(b, e, Plane::Vertical, 110.0 * MPH, &[AVERAGE])),
     entry(&["4.6.19"], "vertical-ride-60", "vertical ride against stroke at 60 mph",
         |b, e| trade_off::draw(b, e, Plane::Vertical, 60.0 * MPH, &[AVERAGE])),
-    entry(&["A.2"], "breakaway-torque", "degree curve against yaw breakaway torque", curving::breakaway),
+    entry(&["A.2"], "breakaway-torque", "degree curve against yaw breakaway torque", breakaway::draw),
 ];
 
 /// The chart of that number or name; a number may stand as in `Figure 4.6.1`.

@@ -11,13 +11,13 @@ use crate::{
     },
 };
 
-/// Critical speed, m/s; `None`: stable over the whole range searched.
+/// Critical speed, m/s. `None`: stable over the whole range searched.
 ///
 /// # Errors
 ///
 /// [`EigenError`] if there are no eigenvalues.
 pub fn critical_speed(case: &Case) -> Result<Option<f64>, EigenError> {
-    Stability::of(case).map(|found| found.critical_speed())
+    Ok(Stability::of(case)?.critical_speed())
 }
 
 /// Degree curve, degrees. `None`: there is no steady state.

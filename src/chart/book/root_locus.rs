@@ -5,7 +5,8 @@ use num_complex::Complex64;
 
 use super::{
     Entry,
-    performance::{critical_speed, lateral_modes},
+    followed::{Followed, follow, kinematic_at, speeds},
+    performance::critical_speed,
     value::number,
     workbook::{MPH, Workbook},
 };
@@ -14,95 +15,140 @@ use crate::{
         Axis, Curve, Dash, Direction, Family, Figure, Ink, Labels, Limit, Mark, Panel, Scale,
         Stroke, Symbol, Unit, Weight,
     },
-    dynamics::LateralModel,
-    evaluate::{
-        lateral_modes::{LateralShape, OVERDAMPED},
-        mode::{damping_ratio, frequency},
-    },
+    evaluate::mode::{damping_ratio, frequency},
     index::Index,
+    parameter::Parameter,
     units::Quantity,
 };
 
-/// Lowest speed shown.
-const LOWEST: f64 = 20.0 * MPH;
 /// Highest frequency shown of modes other than the kinematic ones, Hz.
 const HIGHEST: f64 = 10.0;
 /// Every how many speeds one is written at the root locus.
 const WRITTEN: u32 = 20;
 
-/// Speeds at which the modes are computed: multiples of 2.5 mph or 5 km/h, with their numbers.
-fn speeds(book: &Workbook, highest: f64) -> (Vec<u32>, Vec<f64>) {
-    let unit = book.unit(Quantity::Speed);
-    let step = unit.factor * if unit.label == "mph" { 2.5 } else { 5.0 };
-    (1..)
-        .map(|n| (n, f64::from(n) * step))
-        .skip_while(|(_, v)| *v < LOWEST)
-        .take_while(|(_, v)| *v <= highest * (1.0 + 1e-9))
-        .unzip()
+/// What the panels show.
+struct Shown<'a> {
+    book: &'a Workbook<'a>,
+    /// Numbers of the speeds, of which some are written at the locus.
+    numbers: Vec<u32>,
+    speeds: Vec<f64>,
+    modes: Vec<Followed>,
+    /// The kinematic mode with the least damping at the service speed.
+    design: Option<Complex64>,
 }
 
-/// A mode followed over the speed.
-struct Followed {
-    /// At each speed; `None` where it was lost or does not oscillate.
-    roots: Vec<Option<Complex64>>,
-    kinematic: bool,
+/// An axis of a panel in one unit.
+fn axis(title: &str, symbol: &str, column: &str, range: [f64; 2], unit: &str) -> Axis {
+    let units = [Unit::new(unit, 1.0)];
+    Axis::new(title, symbol, column, Scale::Linear, range, units)
 }
 
-/// Follows every mode from the operating speed to both ends of the range: each goes to where it is
-/// expected from its last two places, the nearest first.
-fn follow(book: &Workbook, speeds: &[f64]) -> Vec<Followed> {
-    let case = book.case();
-    let model = LateralModel::new(case);
-    let modes = book.each(speeds, |speed| lateral_modes(case, &model, *speed));
-    let start = speeds
-        .iter()
-        .position(|v| *v >= case.service.speed)
-        .unwrap_or(speeds.len() - 1);
-    let mut followed: Vec<Followed> = modes[start]
-        .iter()
-        .filter(|m| m.damping_ratio < OVERDAMPED)
-        .map(|m| {
-            let mut roots = vec![None; speeds.len()];
-            roots[start] = Some(m.mode.eigenvalue);
-            Followed {
-                roots,
-                kinematic: m.shape == LateralShape::Kinematic,
-            }
-        })
-        .collect();
-    let up = (start + 1..speeds.len()).map(|i| (i, i - 1, i.checked_sub(2)));
-    let down = (0..start).rev().map(|i| (i, i + 1, Some(i + 2)));
-    for (i, last, before) in up.chain(down) {
-        let found: Vec<Complex64> = modes[i]
-            .iter()
-            .filter(|m| m.damping_ratio < OVERDAMPED)
-            .map(|m| m.mode.eigenvalue)
-            .collect();
-        let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
-        for (k, mode) in followed.iter().enumerate() {
-            let Some(here) = mode.roots[last] else {
-                continue;
-            };
-            let before = before.and_then(|b| mode.roots.get(b).copied().flatten());
-            let expected = before.map_or(here, |before| here + (here - before));
-            for (j, root) in found.iter().enumerate() {
-                pairs.push(((root - expected).norm() / root.norm(), k, j));
-            }
-        }
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut taken = vec![false; found.len()];
-        for (distance, k, j) in pairs {
-            if distance < 0.2 && !taken[j] && followed[k].roots[i].is_none() {
-                taken[j] = true;
-                followed[k].roots[i] = Some(found[j]);
-            }
-        }
+impl Shown<'_> {
+    /// Curves of the kinematic or the other modes below a frequency, through a point for each
+    /// speed and root.
+    fn family(
+        &self,
+        kinematic: bool,
+        highest: f64,
+        point: impl Fn(f64, Complex64) -> [f64; 2],
+    ) -> Family {
+        let (id, title, stroke) = if kinematic {
+            let bold = Stroke::new(Ink::Black, Dash::Solid).weight(Weight::Bold);
+            ("kinematic", "kinematic modes", bold)
+        } else {
+            let grey = Stroke::new(Ink::Grey, Dash::Dashed);
+            ("other", "other modes", grey)
+        };
+        let of = self.modes.iter().filter(|m| m.kinematic == kinematic);
+        let curves = of.map(|mode| {
+            let points = mode.roots.iter().zip(&self.speeds).map(|(root, speed)| {
+                root.filter(|s| kinematic || frequency(*s) < highest)
+                    .map_or([f64::NAN; 2], |s| point(*speed, s))
+            });
+            Curve::line("", points)
+        });
+        Family::new(id, title, stroke)
+            .labelled(Labels::None)
+            .curves(curves)
     }
-    followed
+
+    /// All roots, or those of the kinematic modes.
+    fn roots(&self, kinematic: bool) -> impl Iterator<Item = Complex64> + '_ {
+        let of = self.modes.iter().filter(move |m| m.kinematic || !kinematic);
+        of.flat_map(|m| m.roots.iter().flatten().copied())
+    }
+
+    /// A panel with all curves and the design.
+    fn panel(
+        &self,
+        id: &str,
+        axes: [Axis; 2],
+        highest: f64,
+        point: impl Fn(f64, Complex64) -> [f64; 2],
+    ) -> Panel {
+        let speed = self.book.case().service.speed;
+        let [x, y] = axes;
+        Panel::new(id, x, y)
+            .with(self.family(false, highest, &point))
+            .with(self.family(true, highest, &point))
+            .mark(self.design.map(|s| Mark::design(point(speed, s))))
+    }
+
+    fn damping(&self, speed: Axis, critical: Option<f64>) -> Panel {
+        let ratio = axis("damping ratio", "ζ", "damping_ratio", [-0.1, 1.0], "");
+        let written = |v: f64| self.book.value(Quantity::Speed, v, 3);
+        let onset = critical.map(|v| {
+            let text = format!("V_cr = {}", written(v));
+            Mark::new([v, 0.0], Symbol::Disc, Ink::Vermilion, text)
+        });
+        let required = self.book.spec.demands.get(Index::CriticalSpeed);
+        self.panel("a", [speed, ratio], HIGHEST, |v, s| [v, damping_ratio(s)])
+            .titled("(a) damping ratio")
+            .limit(required.map(|value| Limit {
+                axis: Direction::X,
+                value,
+                at_least: true,
+                label: format!("required {}", written(value)),
+            }))
+            .mark(onset)
+    }
+
+    fn natural(&self, speed: Axis) -> Panel {
+        let hertz = axis("frequency", "f", "frequency_hz", [0.0, HIGHEST], "Hz")
+            .holding(self.roots(true).map(frequency));
+        self.panel("b", [speed, hertz], HIGHEST, |v, s| [v, frequency(s)])
+            .titled("(b) natural frequency")
+    }
+
+    /// The locus of the kinematic modes or of all.
+    fn locus(&self, id: &str, kinematic: bool) -> Panel {
+        let axes = [
+            axis("Re s", "", "re_s_per_s", [-10.0, 2.0], "1/s")
+                .holding(self.roots(kinematic).map(|s| s.re)),
+            axis("Im s", "", "im_s_rad_per_s", [0.0, 10.0], "rad/s")
+                .holding(self.roots(kinematic).map(|s| 1.05 * s.im)),
+        ];
+        let highest = if kinematic { HIGHEST } else { f64::INFINITY };
+        self.panel(id, axes, highest, |_, s| [s.re, s.im])
+    }
+
+    /// With speeds written at the locus. The trucks' modes nearly coincide: at one is enough.
+    fn numbered(&self, mut locus: Panel) -> Panel {
+        let unit = self.book.unit(Quantity::Speed);
+        let Some(mode) = self.modes.iter().find(|m| m.kinematic) else {
+            return locus;
+        };
+        for (i, root) in mode.roots.iter().enumerate() {
+            if let Some(s) = root.filter(|_| self.numbers[i].is_multiple_of(WRITTEN)) {
+                let text = number(self.speeds[i] / unit.factor, 3);
+                locus = locus.mark(Mark::new([s.re, s.im], Symbol::Dot, Ink::Black, text));
+            }
+        }
+        locus
+    }
 }
 
 /// Draws it.
-#[expect(clippy::too_many_lines, reason = "four panels, each said once")]
 pub(super) fn draw(book: &Workbook, entry: &Entry) -> Figure {
     let case = book.case();
     let critical = critical_speed(case).ok().flatten();
@@ -110,7 +156,7 @@ pub(super) fn draw(book: &Workbook, entry: &Entry) -> Figure {
         .map_or(300.0 * MPH, |v| 1.1 * v)
         .max(1.1 * case.service.speed)
         .min(600.0 * MPH);
-    let speed_axis = book
+    let speed = book
         .axis(
             "speed",
             "V",
@@ -120,123 +166,26 @@ pub(super) fn draw(book: &Workbook, entry: &Entry) -> Figure {
             [0.0, top],
         )
         .rounded();
-    let (numbers, speeds) = speeds(book, speed_axis.range[1]);
-    let modes = follow(book, &speeds);
-    let family = |kinematic: bool, highest: f64, point: &dyn Fn(usize, Complex64) -> [f64; 2]| {
-        let (id, title, stroke) = if kinematic {
-            (
-                "kinematic",
-                "kinematic modes",
-                Stroke::new(Ink::Black, Dash::Solid).weight(Weight::Bold),
-            )
-        } else {
-            ("other", "other modes", Stroke::new(Ink::Grey, Dash::Dashed))
-        };
-        let curves = modes
-            .iter()
-            .filter(|m| m.kinematic == kinematic)
-            .map(|mode| {
-                let points = mode.roots.iter().enumerate().map(|(i, root)| {
-                    root.filter(|s| kinematic || frequency(*s) < highest)
-                        .map_or([f64::NAN; 2], |s| point(i, s))
-                });
-                Curve::line("", points.collect::<Vec<_>>())
-            });
-        Family::new(id, title, stroke)
-            .labelled(Labels::None)
-            .curves(curves)
+    let (numbers, speeds) = speeds(book, speed.range[1]);
+    let shown = Shown {
+        book,
+        modes: follow(book, &speeds),
+        numbers,
+        speeds,
+        design: kinematic_at(book, case.service.speed)
+            .into_iter()
+            .min_by(|a, b| damping_ratio(*a).total_cmp(&damping_ratio(*b))),
     };
-    let roots = |kinematic: bool| {
-        let of = modes.iter().filter(move |m| m.kinematic || !kinematic);
-        of.flat_map(|m| m.roots.iter().flatten().copied())
-    };
-    let ratio = |i: usize, s: Complex64| [speeds[i], damping_ratio(s)];
-    let hertz = |i: usize, s: Complex64| [speeds[i], frequency(s)];
-    let root = |_: usize, s: Complex64| [s.re, s.im];
-    let plain = |title: &str, symbol: &str, column: &str, range: [f64; 2], unit: &str| {
-        Axis::new(
-            title,
-            symbol,
-            column,
-            Scale::Linear,
-            range,
-            [Unit::new(unit, 1.0)],
-        )
-    };
-    let own: Vec<Complex64> = kinematic_at(book, case.service.speed);
-    let mark = |at: [f64; 2]| Mark::design(at);
-    let worst = own
-        .iter()
-        .copied()
-        .min_by(|a, b| damping_ratio(*a).total_cmp(&damping_ratio(*b)));
-    let onset = critical.map(|v| {
-        let text = format!("V_cr = {}", book.value(Quantity::Speed, v, 3));
-        Mark::new([v, 0.0], Symbol::Disc, Ink::Vermilion, text)
-    });
-    let required = book.spec.demands.get(Index::CriticalSpeed);
-    let limit = required.map(|value| Limit {
-        axis: Direction::X,
-        value,
-        at_least: true,
-        label: format!("required {}", book.value(Quantity::Speed, value, 3)),
-    });
-    let damping = Panel::new(
-        "a",
-        speed_axis.clone(),
-        plain("damping ratio", "ζ", "damping_ratio", [-0.1, 1.0], ""),
-    )
-    .titled("(a) damping ratio")
-    .with(family(false, HIGHEST, &ratio))
-    .with(family(true, HIGHEST, &ratio))
-    .limit(limit)
-    .mark(onset)
-    .mark(worst.map(|s| mark([case.service.speed, damping_ratio(s)])));
-    let natural = Panel::new(
-        "b",
-        speed_axis,
-        plain("frequency", "f", "frequency_hz", [0.0, HIGHEST], "Hz")
-            .holding(roots(true).map(frequency)),
-    )
-    .titled("(b) natural frequency")
-    .with(family(false, HIGHEST, &hertz))
-    .with(family(true, HIGHEST, &hertz))
-    .mark(worst.map(|s| mark([case.service.speed, frequency(s)])));
-    let mut locus = Panel::new(
-        "c",
-        plain("Re s", "", "re_s_per_s", [-10.0, 2.0], "1/s").holding(roots(true).map(|s| s.re)),
-        plain("Im s", "", "im_s_rad_per_s", [0.0, 10.0], "rad/s")
-            .holding(roots(true).map(|s| 1.05 * s.im)),
-    )
-    .titled("(c) root locus, the speed along the curves")
-    .with(family(false, HIGHEST, &root))
-    .with(family(true, HIGHEST, &root));
-    // The trucks' modes nearly coincide: numbers on one are enough.
-    if let Some(mode) = modes.iter().find(|m| m.kinematic) {
-        for (i, s) in mode.roots.iter().enumerate() {
-            if let Some(s) = s.filter(|_| numbers[i].is_multiple_of(WRITTEN)) {
-                let text = number(speeds[i] / book.unit(Quantity::Speed).factor, 3);
-                locus = locus.mark(Mark::new([s.re, s.im], Symbol::Dot, Ink::Black, text));
-            }
-        }
-    }
-    locus = locus.mark(worst.map(|s| mark([s.re, s.im])));
-    let all = Panel::new(
-        "d",
-        plain("Re s", "", "re_s_per_s", [-10.0, 2.0], "1/s").holding(roots(false).map(|s| s.re)),
-        plain("Im s", "", "im_s_rad_per_s", [0.0, 10.0], "rad/s")
-            .holding(roots(false).map(|s| s.im)),
-    )
-    .titled("(d) root locus, all modes")
-    .with(family(false, f64::INFINITY, &root))
-    .with(family(true, f64::INFINITY, &root))
-    .mark(worst.map(|s| mark([s.re, s.im])));
+    let locus = shown
+        .numbered(shown.locus("c", true))
+        .titled("(c) root locus, the speed along the curves");
     let mut figure = entry
         .figure("Frequencies and damping ratios of the kinematic modes")
         .columns(2)
-        .panel(damping)
-        .panel(natural)
+        .panel(shown.damping(speed.clone(), critical))
+        .panel(shown.natural(speed))
         .panel(locus)
-        .panel(all)
+        .panel(shown.locus("d", false).titled("(d) root locus, all modes"))
         .described(
             "Damping ratio and natural frequency of the lateral modes over speed, and their root \
              locus; the kinematic modes are emphasised, the critical speed and the design are \
@@ -245,9 +194,9 @@ pub(super) fn draw(book: &Workbook, entry: &Entry) -> Figure {
     figure.subtitle = book.subtitle(
         None,
         &[
-            crate::parameter::Parameter::Conicity,
-            crate::parameter::Parameter::PrimaryBendingStiffness,
-            crate::parameter::Parameter::PrimaryLateralStiffness,
+            Parameter::Conicity,
+            Parameter::PrimaryBendingStiffness,
+            Parameter::PrimaryLateralStiffness,
         ],
     );
     figure.note(format!(
@@ -255,14 +204,4 @@ pub(super) fn draw(book: &Workbook, entry: &Entry) -> Figure {
          are in (d) only. Numbers along the locus are speeds in {}.",
         book.unit(Quantity::Speed).label
     ))
-}
-
-/// Eigenvalues of the kinematic modes at a speed.
-fn kinematic_at(book: &Workbook, speed: f64) -> Vec<Complex64> {
-    let case = book.case();
-    lateral_modes(case, &LateralModel::new(case), speed)
-        .iter()
-        .filter(|m| m.shape == LateralShape::Kinematic)
-        .map(|m| m.mode.eigenvalue)
-        .collect()
 }

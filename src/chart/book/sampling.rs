@@ -6,7 +6,7 @@ use crate::chart::Scale;
 /// Points to begin with.
 const FIRST: usize = 33;
 /// How often an interval may be halved: to less than a pixel of a chart.
-const HALVINGS: i32 = 6;
+const HALVINGS: u32 = 6;
 /// How far a point may lie off the straight way between its neighbours, over the extent of the
 /// curve: half the width of its line.
 const BEND: f64 = 2e-3;
@@ -53,7 +53,7 @@ pub(super) fn sample(
 /// Length of the smallest interval, on the scale.
 fn smallest(scale: Scale, range: [f64; 2]) -> f64 {
     let [low, high] = range.map(|x| scale.forward(x));
-    (high - low) / (FIRST - 1) as f64 / 2.0_f64.powi(HALVINGS)
+    (high - low) / (FIRST - 1) as f64 / f64::from(1_u32 << HALVINGS)
 }
 
 /// The largest value: charts of positive values begin at zero.
@@ -93,4 +93,45 @@ fn broken(scale: Scale, points: Vec<[f64; 2]>, smallest: f64) -> Vec<[f64; 2]> {
         whole.push(point);
     }
     whole
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        chart::{Curve, System},
+        spec::{STARTER, Spec},
+    };
+
+    /// A parabola that jumps at 2 and ends at 3: two pieces, each to within a smallest interval of
+    /// its end, and nowhere farther from the curve than what is asked.
+    #[test]
+    fn jumps_and_ends_are_found() {
+        let spec = Spec::parse(STARTER).unwrap_or_else(|_| panic!("the starter spec"));
+        let book = Workbook::new(&spec, "starter", System::Us, &());
+        let value = |x: f64| if x < 2.0 { x * x } else { 10.0 };
+        let points = sample(&book, Scale::Linear, [0.0, 4.0], |x| {
+            (x <= 3.0).then(|| value(x))
+        });
+        let curve = Curve::line("", points);
+        let [rising, flat] = &curve.pieces[..] else {
+            panic!("{} pieces", curve.pieces.len())
+        };
+        let close = 1.01 * smallest(Scale::Linear, [0.0, 4.0]);
+        let ends = [
+            rising[0],
+            rising[rising.len() - 1],
+            flat[0],
+            flat[flat.len() - 1],
+        ];
+        for (end, expected) in ends.iter().zip([0.0, 2.0, 2.0, 3.0]) {
+            assert!((end[0] - expected).abs() <= close, "{end:?} {expected}");
+        }
+        for w in rising.windows(2) {
+            let middle = f64::midpoint(w[0][0], w[1][0]);
+            let off = (f64::midpoint(w[0][1], w[1][1]) - value(middle)).abs();
+            assert!(off < BEND * 10.0, "{middle}: {off}");
+        }
+        assert!(curve.points().count() < 80);
+    }
 }

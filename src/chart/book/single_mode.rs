@@ -4,7 +4,7 @@ use num_complex::Complex64;
 
 use super::{Entry, comfort::frequency_axis, value::number, workbook::Workbook};
 use crate::{
-    chart::{Axis, Curve, Family, Figure, Panel, Scale, Stroke, Unit},
+    chart::{Axis, Curve, Family, Figure, Labels, Panel, Scale, Stroke, Unit},
     parameter::Parameter,
 };
 
@@ -71,7 +71,15 @@ pub(super) fn draw(book: &Workbook, entry: &Entry) -> Figure {
             } else {
                 "damping-ratio"
             };
-            let family = Family::new(id, "", Stroke::default()).curves(curves);
+            // Labels on the curves would hide the peaks of the damping ratios.
+            let labels = if by_frequency {
+                Labels::Inline
+            } else {
+                Labels::Legend
+            };
+            let family = Family::new(id, "", Stroke::default())
+                .labelled(labels)
+                .curves(curves);
             let least = [0.1, 1e-2][k];
             let y = Axis::new(
                 word,

@@ -156,41 +156,42 @@ fn on_cliffs(cliffs: &[[([f64; 2], f64); 2]], level: f64) -> impl Iterator<Item 
 }
 
 /// The largest degree curve that a vehicle with at least a critical speed reaches, over the speed,
-/// for each conicity: along every line of constant critical speed the best point, and no worse
-/// than at any higher speed.
-#[expect(clippy::too_many_lines, reason = "one figure, said from top to bottom")]
-pub(super) fn envelopes(book: &Workbook, entry: &Entry) -> Figure {
+/// at one of [`CONICITIES`]: along every line of constant critical speed the best point, and no
+/// worse than at any higher speed.
+fn envelope(book: &Workbook, index: usize) -> Curve {
     let [x, y] = book.stiffness_axes();
     let axes = [&x, &y];
     let [first, last, step] = ENVELOPE;
-    let mut family = Family::new("conicity", "", Stroke::default());
-    for (i, conicity) in CONICITIES.into_iter().enumerate() {
-        let field = book.stability_curving(i);
-        let cliffs = field.cliffs(SPEED, axes);
-        let mut best: f64 = f64::NAN;
-        let mut points = Vec::new();
-        let mut speed = last;
-        while speed >= first {
-            let at_level = field
-                .level(SPEED, speed * MPH, axes)
-                .into_iter()
-                .flatten()
-                .chain(on_cliffs(&cliffs, speed * MPH))
-                .filter_map(|point| field.value(DEGREE, point, axes))
-                .fold(f64::NAN, f64::max);
-            best = best.max(at_level);
-            if best.is_finite() {
-                points.push([speed * MPH, best]);
-            }
-            speed -= step;
+    let field = book.stability_curving(index);
+    let cliffs = field.cliffs(SPEED, axes);
+    let mut best: f64 = f64::NAN;
+    let mut points = Vec::new();
+    let mut speed = last;
+    while speed >= first {
+        let at_level = field
+            .level(SPEED, speed * MPH, axes)
+            .into_iter()
+            .flatten()
+            .chain(on_cliffs(&cliffs, speed * MPH))
+            .filter_map(|point| field.value(DEGREE, point, axes))
+            .fold(f64::NAN, f64::max);
+        best = best.max(at_level);
+        if best.is_finite() {
+            points.push([speed * MPH, best]);
         }
-        points.reverse();
-        family = family.curve(
-            Curve::line(format!("λ = {conicity}"), points)
-                .at(conicity)
-                .stroke(Stroke::nth(i)),
-        );
+        speed -= step;
     }
+    points.reverse();
+    let conicity = CONICITIES[index];
+    Curve::line(format!("λ = {conicity}"), points)
+        .at(conicity)
+        .stroke(Stroke::nth(index))
+}
+
+/// The envelopes of all conicities.
+pub(super) fn envelopes(book: &Workbook, entry: &Entry) -> Figure {
+    let curves = (0..CONICITIES.len()).map(|index| envelope(book, index));
+    let family = Family::new("conicity", "", Stroke::default()).curves(curves);
     let case = book.case();
     let design = critical_speed(case)
         .ok()
@@ -204,7 +205,7 @@ pub(super) fn envelopes(book: &Workbook, entry: &Entry) -> Figure {
             "critical_speed_m_per_s",
             Quantity::Speed,
             Scale::Linear,
-            [first * MPH, 300.0 * MPH],
+            [ENVELOPE[0] * MPH, 300.0 * MPH],
         )
         .holding(
             design

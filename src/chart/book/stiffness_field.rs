@@ -257,13 +257,6 @@ impl Workbook<'_> {
     pub fn stability_curving(&self, conicity: usize) -> Field {
         let mut field = self.curving(conicity);
         let speeds = self.speeds[conicity].get_or_init(|| {
-            let speed = |case: &Case| {
-                Some(
-                    critical_speed(case)
-                        .ok()?
-                        .unwrap_or(case.model.speed_range[1]),
-                )
-            };
             let mut layer = self.layer(conicity, "critical_speed_m_per_s", speed);
             layer.jumps = self.jumps(conicity, &layer, speed);
             layer

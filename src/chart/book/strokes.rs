@@ -143,8 +143,23 @@ pub(super) fn rms_limit(
     }
 }
 
+impl Over {
+    /// What the chart holds fixed.
+    fn fixed(self) -> Vec<Parameter> {
+        [
+            (Self::Conicity, Parameter::Conicity),
+            (Self::Bending, Parameter::PrimaryBendingStiffness),
+            (Self::Lateral, Parameter::PrimaryLateralStiffness),
+        ]
+        .into_iter()
+        .filter(|(axis, p)| *axis != self && !(self == Self::Speed && *p == Parameter::Conicity))
+        .map(|(_, parameter)| parameter)
+        .chain([Parameter::SecondaryYawStiffness])
+        .collect()
+    }
+}
+
 /// Draws one of the charts.
-#[expect(clippy::too_many_lines, reason = "one figure, said from top to bottom")]
 pub(super) fn draw(book: &Workbook, entry: &Entry, shown: Shown, over: Over) -> Figure {
     let case = book.case();
     let speed = case.service.speed;
@@ -217,23 +232,13 @@ pub(super) fn draw(book: &Workbook, entry: &Entry, shown: Shown, over: Over) -> 
         (Over::Speed, Shown::Excursion) => "excursion of wheelset 1",
         _ => shown.words(),
     };
-    let fixed: Vec<Parameter> = [
-        (Over::Conicity, Parameter::Conicity),
-        (Over::Bending, Parameter::PrimaryBendingStiffness),
-        (Over::Lateral, Parameter::PrimaryLateralStiffness),
-    ]
-    .into_iter()
-    .filter(|(axis, p)| *axis != over && !(over == Over::Speed && *p == Parameter::Conicity))
-    .map(|(_, parameter)| parameter)
-    .chain([Parameter::SecondaryYawStiffness])
-    .collect();
     let mut figure = entry
         .figure(format!("Influence of {words} on {what}"))
         .panel(panel)
         .described(format!(
             "RMS {what} over the {words}; the design is marked."
         ));
-    figure.subtitle = book.subtitle((over != Over::Speed).then_some(speed), &fixed);
+    figure.subtitle = book.subtitle((over != Over::Speed).then_some(speed), &over.fixed());
     if over == Over::Speed {
         figure.subtitle = format!("{}, on {}", figure.subtitle, case.service.track.name);
     }

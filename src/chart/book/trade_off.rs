@@ -3,13 +3,12 @@
 
 use super::{
     Entry,
-    performance::{lateral_ride, vertical_ride},
+    plane::{AVERAGE, Plane},
     strokes::rms_limit,
     value::number,
     workbook::Workbook,
 };
 use crate::{
-    case::Case,
     chart::{Axis, Curve, Dash, Direction, Family, Figure, Ink, Limit, Mark, Panel, Scale, Stroke},
     evaluate::limits::SECONDARY_STOP,
     index::Index,
@@ -17,104 +16,17 @@ use crate::{
     units::Quantity,
 };
 
-/// Lateral or vertical.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Plane {
-    /// Lateral.
-    Lateral,
-    /// Vertical.
-    Vertical,
-}
-
 /// Points on each line of a net.
 const POINTS: usize = 65;
-
-impl Plane {
-    fn parameters(self) -> [Parameter; 2] {
-        match self {
-            Self::Lateral => [
-                Parameter::SecondaryLateralFrequency,
-                Parameter::SecondaryLateralDampingRatio,
-            ],
-            Self::Vertical => [
-                Parameter::SecondaryVerticalFrequency,
-                Parameter::SecondaryVerticalDampingRatio,
-            ],
-        }
-    }
-
-    /// Lines of constant natural frequency, Hz, and of constant damping ratio.
-    fn lines(self) -> [&'static [f64]; 2] {
-        match self {
-            Self::Lateral => [
-                &[0.5, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5],
-                &[0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.7],
-            ],
-            Self::Vertical => [
-                &[0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4],
-                &[0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8],
-            ],
-        }
-    }
-
-    fn word(self) -> &'static str {
-        match self {
-            Self::Lateral => "lateral",
-            Self::Vertical => "vertical",
-        }
-    }
-
-    /// Accelerations at c.g., front, rear and their average, and the average stroke.
-    fn ride(self, case: &Case) -> Option<([f64; 4], f64)> {
-        let ([cg, front, rear], average, stroke) = match self {
-            Self::Lateral => {
-                let ride = lateral_ride(case)?;
-                (
-                    ride.acceleration,
-                    ride.average_acceleration(),
-                    ride.average_stroke(),
-                )
-            }
-            Self::Vertical => {
-                let ride = vertical_ride(case)?;
-                (
-                    ride.acceleration,
-                    ride.average_acceleration(),
-                    ride.average_stroke(),
-                )
-            }
-        };
-        Some(([cg, front, rear, average], stroke))
-    }
-}
-
-/// Positions in what [`Plane::ride`] gives.
-pub(super) const CG: usize = 0;
-pub(super) const REAR: usize = 2;
-pub(super) const AVERAGE: usize = 3;
 
 /// Rides on a line of the net: natural frequency, damping ratio, and the ride.
 type Line = Vec<Option<([f64; 4], f64)>>;
 
-/// Draws a net at a speed, a panel for each passenger point wanted.
-#[expect(clippy::too_many_lines, reason = "one figure, said from top to bottom")]
-pub(super) fn draw(
-    book: &Workbook,
-    entry: &Entry,
-    plane: Plane,
-    speed: f64,
-    points: &[usize],
-) -> Figure {
+/// The lines of the net of a plane at a speed: those of constant natural frequency, then those of
+/// constant damping ratio, at evenly spread logarithms of the other.
+fn net(book: &Workbook, plane: Plane, speed: f64) -> Vec<Line> {
     let [frequency, ratio] = plane.parameters();
     let [frequencies, ratios] = plane.lines();
-    let at = |f: f64, xi: f64| {
-        let mut case = book.case().clone();
-        case.service.speed = speed;
-        case.vehicle.suspension.secondary.air_spring = None;
-        frequency.set(&mut case, f);
-        ratio.set(&mut case, xi);
-        plane.ride(&case)
-    };
     let ends = |values: &[f64]| [values[0], values[values.len() - 1]];
     let along_frequency = Scale::Log.spread(ends(frequencies), POINTS);
     let along_ratio = Scale::Log.spread(ends(ratios), POINTS);
@@ -125,8 +37,28 @@ pub(super) fn draw(
     for xi in ratios {
         wanted.extend(along_frequency.iter().map(|f| [*f, *xi]));
     }
-    let rides = book.each(&wanted, |[f, xi]| at(*f, *xi));
-    let lines: Vec<Line> = rides.chunks(POINTS).map(<[_]>::to_vec).collect();
+    let rides = book.each(&wanted, |[f, xi]| {
+        let mut case = book.case().clone();
+        case.service.speed = speed;
+        case.vehicle.suspension.secondary.air_spring = None;
+        frequency.set(&mut case, *f);
+        ratio.set(&mut case, *xi);
+        plane.ride(&case)
+    });
+    rides.chunks(POINTS).map(<[_]>::to_vec).collect()
+}
+
+/// Draws a net at a speed, a panel for each passenger point wanted.
+pub(super) fn draw(
+    book: &Workbook,
+    entry: &Entry,
+    plane: Plane,
+    speed: f64,
+    points: &[usize],
+) -> Figure {
+    let [frequency, ratio] = plane.parameters();
+    let [frequencies, ratios] = plane.lines();
+    let lines = net(book, plane, speed);
     let (of_frequency, of_ratio) = lines.split_at(frequencies.len());
     let mut case = book.case().clone();
     case.service.speed = speed;

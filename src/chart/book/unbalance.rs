@@ -8,7 +8,8 @@ use super::{
 };
 use crate::{
     chart::{
-        Axis, Curve, Dash, Direction, Family, Figure, Ink, Panel, Scale, Shade, Stroke, Weight,
+        Axis, Curve, Dash, Direction, Family, Figure, Ink, Panel, Scale, Shade, Stroke, System,
+        Weight,
     },
     evaluate::limits::CANT_DEFICIENCY,
     track::{SUPERELEVATION_BASE, cant_deficiency, curvature_of_degree, fra_speed_limit},
@@ -56,7 +57,10 @@ pub(super) fn draw(book: &Workbook, entry: &Entry) -> Figure {
             .stroke(bold(Dash::Long)),
         );
     let service = book.case().service.speed;
-    let mut speeds: Vec<f64> = [20.0, 40.0, 60.0, 80.0, 110.0].map(|v| v * MPH).to_vec();
+    let mut speeds: Vec<f64> = match book.system {
+        System::Us => [20.0, 40.0, 60.0, 80.0, 110.0].map(|v| v * MPH).to_vec(),
+        System::Si => [30.0, 60.0, 100.0, 130.0, 180.0].map(|v| v / 3.6).to_vec(),
+    };
     speeds.retain(|v| (v / service - 1.0).abs() > 0.02);
     let line = |speed: f64| {
         let points = degrees.iter().map(|d| {

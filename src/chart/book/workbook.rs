@@ -23,7 +23,7 @@ pub const MPH: f64 = us::MILE / 3600.0;
 /// Conicities over which sweeps run: from the least of [`CONICITIES`] to the end of Table 4.1.1.
 pub(super) const CONICITY_RANGE: [f64; 2] = [CONICITIES[0], CONICITY_MAX];
 
-/// Grid lines of a field along each axis: with so many, contours are smooth to the eye.
+/// Grid lines of a field along each axis: so many make contours smooth to the eye.
 const GRID: usize = 57;
 
 /// Who wants to know how far the work is.

@@ -1,0 +1,158 @@
+//! `bogie report`, and the page of `bogie optimize --report`.
+
+use std::path::Path;
+
+use bogie::{
+    design::{
+        outcome::DesignResult,
+        pareto::{self, Front},
+        sensitivity::Sensitivity,
+    },
+    evaluate::warnings::warnings,
+    export::file,
+    optimize::archive::Archive,
+    report::{Report, charts, page},
+};
+
+use super::{
+    Done, Failure, arguments,
+    commands::{failed, together, wrong},
+    design::tell,
+    input::{self, Named},
+    interrupt, output,
+    progress::Line,
+};
+
+pub fn report(call: &arguments::Report) -> Result<Done, Failure> {
+    let named = input::read(&call.source.spec)?;
+    ready(&call.page)?;
+    let result = DesignResult::as_given(&named.spec).map_err(failed)?;
+    let command = format!("bogie report {0}.toml {0}.html", named.name);
+    let made = Made {
+        named: &named,
+        result: &result,
+        designed: false,
+        matters: None,
+        command,
+        budget: None,
+    };
+    made.write(&call.page)?;
+    Ok(Done::Complete)
+}
+
+/// The page of an optimisation.
+pub fn optimized(
+    named: &Named,
+    result: &DesignResult,
+    matters: Option<&Sensitivity>,
+    call: &arguments::Optimize,
+    page: &Path,
+) -> Result<(), Failure> {
+    let budget = call.search.budget;
+    let limit = budget.map_or_else(String::new, |n| format!(" --budget {n}"));
+    let command = format!(
+        "bogie optimize {0}.toml{limit} --report {0}.html",
+        named.name
+    );
+    let made = Made {
+        named,
+        result,
+        designed: true,
+        matters,
+        command,
+        budget,
+    };
+    made.write(page)
+}
+
+/// Makes sure that a page can be written, before the work for it.
+pub fn ready(page: &Path) -> Result<(), Failure> {
+    if page.as_os_str() == "-" {
+        return Ok(());
+    }
+    if page.is_dir() {
+        return Err(wrong(&format!(
+            "{} is a folder: name a file for the report",
+            page.display()
+        )));
+    }
+    let folder = page
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    output::ready(folder.unwrap_or(Path::new(".")))
+}
+
+/// A result of which a page is made.
+struct Made<'a> {
+    named: &'a Named,
+    result: &'a DesignResult,
+    designed: bool,
+    matters: Option<&'a Sensitivity>,
+    command: String,
+    budget: Option<u64>,
+}
+
+impl Made<'_> {
+    fn write(&self, path: &Path) -> Result<(), Failure> {
+        let Named {
+            name,
+            spec,
+            source,
+            digest,
+            warnings: doubts,
+        } = self.named;
+        let result = self.result;
+        let front = self.front();
+        let progress = Line::charts(charts::entries(&result.case).len());
+        let figures = charts::figures(spec, name, &result.case, &progress, |entry| {
+            progress.chart(&entry.number());
+        });
+        progress.finish();
+        let all = together(doubts, &warnings(&result.case, &result.evaluation));
+        let html = page(&Report {
+            name,
+            source,
+            digest,
+            command: &self.command,
+            spec,
+            result,
+            designed: self.designed,
+            matters: self.matters,
+            front: front.as_ref(),
+            figures: &figures,
+            warnings: &all,
+        });
+        if path.as_os_str() == "-" {
+            return output::print(html);
+        }
+        file::write(path, html).map_err(|error| {
+            Failure::Failed(format!("cannot write {}: {error}", path.display()))
+        })?;
+        eprintln!("wrote {}", path.display());
+        Ok(())
+    }
+
+    /// The front, where the spec asks for one and something is open to trace it with.
+    fn front(&self) -> Option<Front> {
+        let Named { spec, source, .. } = self.named;
+        let asked = source
+            .parse::<toml::Table>()
+            .is_ok_and(|table| table.contains_key("pareto"));
+        if !asked || spec.design.parameters.is_empty() {
+            return None;
+        }
+        let progress = Line::new();
+        let budget = self
+            .budget
+            .map(|n| usize::try_from(n).unwrap_or(usize::MAX));
+        let archive = Archive::new(&progress)
+            .with_budget(budget)
+            .with_interrupt(interrupt::flag());
+        let front = pareto::pareto(spec, &archive);
+        progress.finish();
+        tell(&archive);
+        front
+            .inspect_err(|error| eprintln!("warning: no front: {error}"))
+            .ok()
+    }
+}

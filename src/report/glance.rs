@@ -1,0 +1,197 @@
+//! The result at a glance: whether every requirement is met, by how much, and how the search ended.
+
+use maud::{Markup, html};
+
+use super::{
+    Report,
+    table::{Column, blocks, table},
+};
+use crate::{
+    evaluate::checks::checks,
+    export::{
+        certificate::{conflict, margin_row},
+        design_text::{performance_rows, stage_name, status, verdict},
+        sheet::Sheet,
+    },
+};
+
+/// The section.
+pub fn glance(report: &Report) -> Markup {
+    html! {
+        section #glance aria-labelledby="glance-title" {
+            h2 #glance-title { "The result at a glance" }
+            (said(report))
+            (margins(report))
+            @if report.designed { (ended(report)) }
+            (exceeded(report))
+            @for warning in report.warnings { p.warning { strong { "Warning: " } (warning) } }
+            (conflicts(report))
+        }
+    }
+}
+
+/// The verdict in one sentence.
+fn said(report: &Report) -> Markup {
+    let result = report.result;
+    if result.margins.is_empty() {
+        return html! { p.verdict.open { "The spec sets no requirement and no limit." } };
+    }
+    let unmet = result.unmet().count();
+    if unmet == 0 {
+        return html! {
+            p.verdict.met { "All " (result.margins.len()) " requirements and limits are met." }
+            @if let Some(stop) = result.stopped {
+                p { "The search ended early, " (stop) ": this is the best found so far." }
+            }
+        };
+    }
+    let mut sheet = Sheet::new("");
+    if report.designed {
+        verdict(&mut sheet, result);
+    }
+    html! {
+        p.verdict.unmet {
+            (unmet) " of " (result.margins.len()) " requirements and limits "
+            (if unmet == 1 { "is" } else { "are" }) " not met."
+        }
+        (blocks(&sheet, "Not met"))
+    }
+}
+
+fn margins(report: &Report) -> Markup {
+    let margins = &report.result.margins;
+    if margins.is_empty() {
+        return html! {};
+    }
+    let rows: Vec<Vec<String>> = margins
+        .iter()
+        .map(|margin| {
+            let mut row = margin_row(margin);
+            if margin.condition.is_none() {
+                row[1] = "nominal".into();
+            }
+            row
+        })
+        .collect();
+    let conditions = margins.iter().any(|m| m.condition.is_some());
+    let mut columns = vec![
+        ("index", Column::Head),
+        ("condition", Column::Text),
+        ("asked, SI", Column::Number),
+        ("asked, US", Column::Number),
+        ("reached, SI", Column::Number),
+        ("reached, US", Column::Number),
+        ("margin", Column::Number),
+        ("verdict", Column::Verdict),
+    ];
+    let rows = if conditions {
+        rows
+    } else {
+        columns.remove(1);
+        let without = |mut row: Vec<String>| {
+            row.remove(1);
+            row
+        };
+        rows.into_iter().map(without).collect()
+    };
+    table("Requirements and limits", &columns, &rows)
+}
+
+/// How each search ended.
+fn ended(report: &Report) -> Markup {
+    let result = report.result;
+    let stages = result
+        .stages
+        .iter()
+        .chain(result.joint.iter().map(|j| &j.stage));
+    let rows: Vec<Vec<String>> = stages
+        .map(|stage| {
+            let explained = &stage.explained;
+            vec![
+                stage_name(stage.trade_off),
+                explained.goal.clone(),
+                status(explained.status).into(),
+                explained
+                    .kkt_residual
+                    .map_or_else(|| "–".into(), |r| format!("{r:.0e}")),
+                explained.active.join("; "),
+            ]
+        })
+        .collect();
+    let columns = [
+        ("trade-off", Column::Head),
+        ("what was sought", Column::Wide),
+        ("status", Column::Text),
+        ("first-order residual", Column::Number),
+        ("held back by", Column::Wide),
+    ];
+    html! {
+        (table("How the searches ended", &columns, &rows))
+        @if result.joint.is_some() {
+            p.note {
+                "The design of this report is that of the trade-offs taken in turn. “All at once” "
+                "is what weighing them together would give: see the certificate."
+            }
+        }
+        @if !result.settled && result.stopped.is_none() {
+            p { "The coupling loop still changed the design after " (result.rounds) " rounds." }
+        }
+    }
+}
+
+/// Nominal constraints of the report that the design exceeds, whether or not the spec limits them.
+fn exceeded(report: &Report) -> Markup {
+    let checks = checks(&report.result.case, &report.result.evaluation);
+    let exceeded: Vec<&str> = checks
+        .iter()
+        .filter(|check| !check.passed())
+        .map(|check| check.name.as_str())
+        .collect();
+    html! {
+        p {
+            (checks.len() - exceeded.len()) " of the " (checks.len())
+            " nominal " a href="#checks" { "checks" } " of the methodology are passed."
+            @if !exceeded.is_empty() { " Not passed: " (exceeded.join("; ")) "." }
+        }
+    }
+}
+
+fn conflicts(report: &Report) -> Markup {
+    let mut sheet = Sheet::new("");
+    conflict(&mut sheet, report.result);
+    blocks(&sheet, "Requirements in conflict")
+}
+
+/// Performance before and after (Table 4.7.1).
+pub fn performance(report: &Report) -> Markup {
+    let result = report.result;
+    let mut rows = performance_rows(result);
+    let mut columns = vec![
+        ("index", Column::Head),
+        ("unit", Column::Text),
+        ("as given", Column::Number),
+        ("designed", Column::Number),
+        ("at half the creep coefficients", Column::Number),
+    ];
+    columns.extend(
+        result
+            .conditions
+            .iter()
+            .map(|c| (c.name.as_str(), Column::Number)),
+    );
+    if !report.designed {
+        columns.remove(3);
+        for row in &mut rows {
+            row.remove(3);
+        }
+    }
+    html! {
+        section #performance aria-labelledby="performance-title" {
+            h2 #performance-title { "Performance" }
+            (table("As Table 4.7.1", &columns, &rows))
+            p.note {
+                "Half the creep coefficients of Kalker's theory stand for contaminated rail (4.5.4)."
+            }
+        }
+    }
+}
