@@ -106,7 +106,9 @@ fn refinement_changes_nothing() {
             let edges = panels(&model, &case, &Poles::at(&model.system, speed).unwrap());
             let [coarse, fine] = [1e-6, 1e-12].map(|tolerance| {
                 let mut response = Response::new(&model, &case.service.track, speed);
-                integrate(&edges, outputs, tolerance, |f, v| response.densities(f, v))
+                integrate(&edges, [outputs; 2], tolerance, |f, v| {
+                    response.densities(f, v)
+                })
             });
             assert!(coarse.converged && fine.converged);
             for k in 0..outputs {

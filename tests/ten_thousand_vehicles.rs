@@ -460,7 +460,9 @@ fn refinement_changes_nothing() {
             finer.sort_by(f64::total_cmp);
             let [coarse, fine] = [(&edges, 1e-6), (&finer, 1e-11)].map(|(edges, tolerance)| {
                 let mut response = Response::new(&model, &case.service.track, speed);
-                integrate(edges, outputs, tolerance, |f, v| response.densities(f, v))
+                integrate(edges, [outputs; 2], tolerance, |f, v| {
+                    response.densities(f, v)
+                })
             });
             assert!(coarse.converged && fine.converged, "vehicle {seed}");
             for k in 0..outputs {

@@ -29,7 +29,7 @@ pub struct Excitation {
 }
 
 /// An output p·x + v·ẋ + a·ẍ over x = [q, u].
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Output {
     /// p.
     pub displacement: Row,

@@ -8,6 +8,7 @@ mod forced;
 pub mod lateral;
 mod linear_system;
 mod row;
+mod tangent;
 pub mod vertical;
 
 pub use eigen::{EigenError, Poles, eigenvalues};
@@ -15,4 +16,5 @@ pub use forced::{Excitation, ForcedModel, Output};
 pub use lateral::LateralModel;
 pub use linear_system::{LinearSystem, Speed};
 pub use row::Row;
+pub use tangent::{ForcedTangent, SystemTangent, TangentEntry};
 pub use vertical::VerticalModel;

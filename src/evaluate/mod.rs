@@ -8,6 +8,7 @@ pub mod cross_checks;
 pub mod curving;
 pub mod damping_range;
 pub mod equalization;
+pub mod gradients;
 pub mod integration;
 pub mod lateral_modes;
 pub mod limits;

@@ -123,7 +123,7 @@ impl Spectra {
         edges.sort_by(f64::total_cmp);
         edges.dedup();
         let accelerations = Response::of(model, &case.service.track, case.service.speed, 0..3);
-        let integrals = mean_squares(accelerations, &edges, 12, |f, values| {
+        let integrals = mean_squares(accelerations, &edges, 9, |f, values| {
             let (densities, weighted) = values.split_at_mut(3);
             let weights = f.map(|f| direction.weights(f));
             for point in 0..3 {

@@ -8,8 +8,8 @@ use super::{
 use crate::{
     case::Case,
     dynamics::{
-        EigenError, ForcedModel, LateralModel, Poles, VerticalModel, elimination::LANES, lateral,
-        vertical,
+        EigenError, ForcedModel, ForcedTangent, LateralModel, Poles, VerticalModel,
+        elimination::LANES, lateral, vertical,
     },
 };
 
@@ -73,17 +73,20 @@ pub(super) fn stationary(poles: &Poles) -> Result<(), NoRide> {
     poles.stable().then_some(()).ok_or(NoRide::Unstable)
 }
 
-/// Integrals over panels between `edges`, Hz, of the densities of a response and of what `more`
-/// makes of them, `functions` in all.
+/// Integrals over panels between `edges`, Hz, of the densities of a response, of as many functions as
+/// `further` says that `more` makes of them, and of their derivatives by design constants.
 pub(super) fn mean_squares(
     mut response: Response<'_>,
     edges: &[f64],
-    functions: usize,
+    further: usize,
     more: impl Fn(&[f64; LANES], &mut [[f64; LANES]]),
 ) -> Result<Integrals, NoRide> {
     let outputs = response.outputs();
+    let checked = outputs + further;
+    let functions = [checked + outputs * response.constants(), checked];
     let integrals = integrate(edges, functions, TOLERANCE, |f, values| {
-        response.densities(f, &mut values[..outputs]);
+        let (values, derivatives) = values.split_at_mut(checked);
+        response.with_derivatives(f, &mut values[..outputs], derivatives);
         more(f, values);
     });
     if !integrals.converged {
@@ -92,14 +95,29 @@ pub(super) fn mean_squares(
     Ok(integrals)
 }
 
-/// RMS values of all outputs of a model.
-fn rms(model: &ForcedModel, case: &Case, poles: &Poles) -> Result<Vec<f64>, NoRide> {
+/// RMS values of all outputs of a model, and their derivatives by the constants of some tangents.
+fn rms(
+    model: &ForcedModel,
+    case: &Case,
+    poles: &Poles,
+    tangents: &[ForcedTangent],
+) -> Result<(Vec<f64>, Vec<Vec<f64>>), NoRide> {
     stationary(poles)?;
     let outputs = model.outputs.len();
     let response = Response::new(model, &case.service.track, case.service.speed);
+    let response = response.with_tangents(tangents);
     let edges = panels(model, case, poles);
-    let integrals = mean_squares(response, &edges, outputs, |_, _| ())?;
-    Ok((0..outputs).map(|k| integrals.total(k).sqrt()).collect())
+    let integrals = mean_squares(response, &edges, 0, |_, _| ())?;
+    let rms: Vec<f64> = (0..outputs).map(|k| integrals.total(k).sqrt()).collect();
+    let derivatives = (1..=tangents.len()).map(|p| {
+        let of_constant = rms.iter().enumerate();
+        // What does not move at all does not move for any constant.
+        of_constant
+            .map(|(k, rms)| integrals.total(p * outputs + k) / (2.0 * rms).max(f64::MIN_POSITIVE))
+            .collect()
+    });
+    let derivatives = derivatives.collect();
+    Ok((rms, derivatives))
 }
 
 fn array<const N: usize>(rms: &[f64], outputs: std::ops::Range<usize>) -> [f64; N] {
@@ -123,19 +141,39 @@ impl LateralRide {
     ///
     /// [`NoRide`] where there is none.
     pub fn from_poles(model: &LateralModel, case: &Case, poles: &Poles) -> Result<Self, NoRide> {
+        Self::with_derivatives(model, case, poles, &[]).map(|(ride, _)| ride)
+    }
+
+    /// As [`LateralRide::from_poles`], with the derivatives of all values by design constants.
+    ///
+    /// # Errors
+    ///
+    /// [`NoRide`] where there is none.
+    pub fn with_derivatives(
+        model: &LateralModel,
+        case: &Case,
+        poles: &Poles,
+        tangents: &[ForcedTangent],
+    ) -> Result<(Self, Vec<Self>), NoRide> {
+        let (rms, derivatives) = rms(&model.forced, case, poles, tangents)?;
+        let derivatives = derivatives.iter().map(|values| Self::of(values));
+        Ok((Self::of(&rms), derivatives.collect()))
+    }
+
+    /// From values in the order of the model's outputs.
+    fn of(rms: &[f64]) -> Self {
         use lateral::output::{
             ACCELERATION, EXCURSION, LONGITUDINAL_STROKE, PRIMARY_STROKE, ROLL_ACCELERATION,
             SECONDARY_STROKE,
         };
-        let rms = rms(&model.forced, case, poles)?;
-        Ok(Self {
-            acceleration: array(&rms, ACCELERATION),
+        Self {
+            acceleration: array(rms, ACCELERATION),
             roll_acceleration: rms[ROLL_ACCELERATION],
-            secondary_stroke: array(&rms, SECONDARY_STROKE),
-            primary_stroke: array(&rms, PRIMARY_STROKE),
-            longitudinal_stroke: array(&rms, LONGITUDINAL_STROKE),
-            excursion: array(&rms, EXCURSION),
-        })
+            secondary_stroke: array(rms, SECONDARY_STROKE),
+            primary_stroke: array(rms, PRIMARY_STROKE),
+            longitudinal_stroke: array(rms, LONGITUDINAL_STROKE),
+            excursion: array(rms, EXCURSION),
+        }
     }
 
     /// ACC_L: RMS acceleration averaged over the three points, m/s².
@@ -166,17 +204,37 @@ impl VerticalRide {
     ///
     /// [`NoRide`] where there is none.
     pub fn from_poles(model: &VerticalModel, case: &Case, poles: &Poles) -> Result<Self, NoRide> {
+        Self::with_derivatives(model, case, poles, &[]).map(|(ride, _)| ride)
+    }
+
+    /// As [`VerticalRide::from_poles`], with the derivatives of all values by design constants.
+    ///
+    /// # Errors
+    ///
+    /// [`NoRide`] where there is none.
+    pub fn with_derivatives(
+        model: &VerticalModel,
+        case: &Case,
+        poles: &Poles,
+        tangents: &[ForcedTangent],
+    ) -> Result<(Self, Vec<Self>), NoRide> {
+        let (rms, derivatives) = rms(&model.forced, case, poles, tangents)?;
+        let derivatives = derivatives.iter().map(|values| Self::of(values));
+        Ok((Self::of(&rms), derivatives.collect()))
+    }
+
+    /// From values in the order of the model's outputs.
+    fn of(rms: &[f64]) -> Self {
         use vertical::output::{
             ACCELERATION, PRIMARY_STROKE, ROLL_ACCELERATION, SECONDARY_STROKE, WHEEL_LOAD,
         };
-        let rms = rms(&model.forced, case, poles)?;
-        Ok(Self {
-            acceleration: array(&rms, ACCELERATION),
+        Self {
+            acceleration: array(rms, ACCELERATION),
             roll_acceleration: rms[ROLL_ACCELERATION],
-            secondary_stroke: array(&rms, SECONDARY_STROKE),
-            primary_stroke: array(&rms, PRIMARY_STROKE),
-            wheel_load: array(&rms, WHEEL_LOAD),
-        })
+            secondary_stroke: array(rms, SECONDARY_STROKE),
+            primary_stroke: array(rms, PRIMARY_STROKE),
+            wheel_load: array(rms, WHEEL_LOAD),
+        }
     }
 
     /// ACC_v: RMS acceleration averaged over the three points, m/s².

@@ -50,6 +50,11 @@ pub fn curvature_of_degree(degree: f64) -> f64 {
     2.0 * (degree.to_radians() / 2.0).sin() / CHORD
 }
 
+/// dκ/dD of a curve of D degrees, 1/m per degree.
+pub fn curvature_per_degree(degree: f64) -> f64 {
+    (degree.to_radians() / 2.0).cos().to_radians() / CHORD
+}
+
 /// D in degrees of a curvature 1/R in 1/m: D = 2 asin(50 ft / R).
 pub fn degree_of_curvature(curvature: f64) -> f64 {
     2.0 * (curvature * CHORD / 2.0).asin().to_degrees()

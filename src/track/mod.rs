@@ -7,7 +7,7 @@ mod spectrum;
 
 pub use curve::{
     Curve, MAX_DEGREE, SUPERELEVATION_BASE, cant_deficiency, curvature_of_degree,
-    degree_of_curvature, fra_speed_limit,
+    curvature_per_degree, degree_of_curvature, fra_speed_limit,
 };
 pub use fra::{CORNER_WAVENUMBER, FRA_CLASSES};
 pub use spectrum::Spectrum;

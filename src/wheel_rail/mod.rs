@@ -2,6 +2,7 @@
 
 mod table;
 
+pub(crate) use table::rows_around;
 pub use table::{CONICITY_MAX, PROFILES};
 
 /// The wheel–rail pair as a spec describes it. `None` takes the coefficient from the report's

@@ -26,15 +26,29 @@ const ROWS: [[f64; 7]; 4] = [
 /// Conicities of the profiles that the report tabulates.
 pub const PROFILES: [f64; 4] = [ROWS[0][0], ROWS[1][0], ROWS[2][0], ROWS[3][0]];
 
+/// Ends of the interval of conicities around one on which every coefficient is linear. At a row of the
+/// table it is the one below, at the first the one above.
+pub fn rows_around(conicity: f64) -> [f64; 2] {
+    if conicity < ROWS[0][0] {
+        return [0.0, ROWS[0][0]];
+    }
+    let upper = upper_row(conicity);
+    [ROWS[upper - 1][0], ROWS[upper][0]]
+}
+
+fn upper_row(conicity: f64) -> usize {
+    (1..ROWS.len() - 1)
+        .find(|&i| conicity <= ROWS[i][0])
+        .unwrap_or(ROWS.len() - 1)
+}
+
 /// Full Kalker coefficients for conicity λ, linear between rows.
 ///
 /// Below 0.05 the tread is a plain cone: a11 = δ0 = λ, Δ = 0, f12 and f22 as at 0.05, f11 and f33
 /// extrapolated from the first two rows. Above 0.25 the last two rows are extrapolated; spec
 /// reading does not let that happen.
 pub(super) fn interpolate(conicity: f64) -> Contact {
-    let upper = (1..ROWS.len() - 1)
-        .find(|&i| conicity <= ROWS[i][0])
-        .unwrap_or(ROWS.len() - 1);
+    let upper = upper_row(conicity);
     let (low, high) = (&ROWS[upper - 1], &ROWS[upper]);
     let t = (conicity - low[0]) / (high[0] - low[0]);
     let linear = |column: usize| low[column] + t * (high[column] - low[column]);

@@ -55,7 +55,7 @@ pub(super) fn mean_squares(
 ) -> Integrals {
     let outputs = output..output + 1;
     let mut response = Response::of(model, &case.service.track, case.service.speed, outputs);
-    integrate(edges, 1, TOLERANCE, |f, values| {
+    integrate(edges, [1, 1], TOLERANCE, |f, values| {
         response.densities(f, values);
     })
 }

@@ -3,7 +3,7 @@
 //! The torque of an element follows K_sψ × relative yaw up to T_sψ and stays there beyond
 //! (Figure 3.4.9). The stretch ψ_c − ψ_t ± l_s/R decides: stuck while |K_sψ stretch| ≤ T_sψ.
 
-use nalgebra::{DVector, Dyn, LU};
+use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use super::CurvingModel;
 use crate::dynamics::{Row, lateral};
@@ -108,6 +108,11 @@ impl CurvingModel {
     }
 
     fn factor(&self, state: [Breakaway; 2]) -> LU<f64, Dyn, Dyn> {
+        self.stiffness_in(state).lu()
+    }
+
+    /// Stiffness with the yaw elements in some state, 15 × 15.
+    pub(crate) fn stiffness_in(&self, state: [Breakaway; 2]) -> DMatrix<f64> {
         let k = self.vehicle.suspension.secondary.yaw_stiffness;
         let mut stiffness = self.stiffness.clone();
         for (j, state) in state.into_iter().enumerate() {
@@ -119,17 +124,11 @@ impl CurvingModel {
                 stiffness[(t, c)] -= k;
             }
         }
-        stiffness.lu()
+        stiffness
     }
 
-    /// The equilibrium in one state, over the curvatures where that state is consistent (an empty
-    /// interval where it is not).
-    fn equilibrium(
-        &self,
-        lu: &LU<f64, Dyn, Dyn>,
-        state: [Breakaway; 2],
-        limit: f64,
-    ) -> Result<Segment, CurvingError> {
+    /// Loads with the yaw elements in some state: at zero curvature, and per unit curvature.
+    pub(crate) fn loads_in(&self, state: [Breakaway; 2]) -> [DVector<f64>; 2] {
         let secondary = &self.vehicle.suspension.secondary;
         let (k, torque) = (secondary.yaw_stiffness, secondary.yaw_breakaway_torque);
         let (mut load, mut slope) = (self.load.clone(), self.load_per_curvature.clone());
@@ -147,6 +146,20 @@ impl CurvingModel {
                 slope[t] += k * self.yaw_offset(j);
             }
         }
+        [load, slope]
+    }
+
+    /// The equilibrium in one state, over the curvatures where that state is consistent (an empty
+    /// interval where it is not).
+    fn equilibrium(
+        &self,
+        lu: &LU<f64, Dyn, Dyn>,
+        state: [Breakaway; 2],
+        limit: f64,
+    ) -> Result<Segment, CurvingError> {
+        let secondary = &self.vehicle.suspension.secondary;
+        let (k, torque) = (secondary.yaw_stiffness, secondary.yaw_breakaway_torque);
+        let [load, slope] = self.loads_in(state);
         let at_zero = lu.solve(&load).ok_or(CurvingError::Singular)?;
         let per_curvature = lu.solve(&slope).ok_or(CurvingError::Singular)?;
         if !at_zero.iter().chain(&per_curvature).all(|x| x.is_finite()) {

@@ -15,6 +15,7 @@ mod equilibrium;
 mod wheel;
 
 pub use equilibrium::{Breakaway, CurvingError, Segment};
+pub(crate) use wheel::Place;
 pub use wheel::{Side, WheelForces};
 
 use nalgebra::{DMatrix, DVector};
@@ -55,6 +56,13 @@ impl CurvingModel {
     /// [`CurvingError`] if the equations are singular or no state of the yaw elements is
     /// consistent.
     pub fn new(case: &Case, cant_deficiency: f64) -> Result<Self, CurvingError> {
+        let mut model = Self::unsolved(case, cant_deficiency);
+        model.segments = model.solve(curvature_of_degree(MAX_DEGREE))?;
+        Ok(model)
+    }
+
+    /// The equations alone.
+    pub(crate) fn unsolved(case: &Case, cant_deficiency: f64) -> Self {
         // The yaw elements between trucks and carbody are added state by state.
         let mut vehicle = case.vehicle;
         vehicle.suspension.secondary.yaw_stiffness = 0.0;
@@ -82,8 +90,7 @@ impl CurvingModel {
         for i in 0..4 {
             model.add_wheelset(i);
         }
-        model.segments = model.solve(curvature_of_degree(MAX_DEGREE))?;
-        Ok(model)
+        model
     }
 
     /// The piecewise affine response, in ascending curvature from zero without gaps.

@@ -56,6 +56,15 @@ impl WheelForces {
     }
 }
 
+/// Where a wheelset is in the curve, or how its place changes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place {
+    /// y_w, m.
+    pub y: f64,
+    /// ψ_w, rad.
+    pub psi: f64,
+}
+
 impl CurvingModel {
     /// Adds the forces of wheelset `i`, wheel by wheel, to stiffness and loads.
     pub(super) fn add_wheelset(&mut self, i: usize) {
@@ -85,21 +94,36 @@ impl CurvingModel {
     /// Creep forces (F_x, F_y) of a wheel as affine functions of curvature on a segment:
     /// [at zero curvature, per unit curvature], N and N m.
     pub(crate) fn creep_forces(&self, segment: &Segment, i: usize, side: Side) -> [[f64; 2]; 2] {
+        let of = |x: &nalgebra::DVector<f64>| Place {
+            y: x[i],
+            psi: x[4 + i],
+        };
+        [
+            self.creep(of(&segment.at_zero), 0.0, 1.0, side),
+            self.creep(of(&segment.per_curvature), 1.0, 0.0, side),
+        ]
+    }
+
+    /// Creep forces (F_x, F_y) of a wheel, linear in the place of its wheelset, the curvature, 1/m, and
+    /// the share of the profile's own spin.
+    pub(crate) fn creep(&self, place: Place, curvature: f64, profile: f64, side: Side) -> [f64; 2] {
         let w = self.vehicle.wheelset;
         let (a, r0) = (w.half_contact_distance, w.rolling_radius);
         let (s, c) = (side.sign(), self.contact[side as usize]);
-        let part = |x: &nalgebra::DVector<f64>, curvature: f64, profile: f64| {
-            let (y, psi) = (x[i], x[4 + i]);
-            let spin = curvature + profile * s * c.delta_0 / r0 + c.delta * y / (a * r0);
-            [
-                -s * c.f33 * (c.conicity * y / r0 - a * curvature),
-                c.f11 * psi + c.f12 * spin,
-            ]
-        };
+        let Place { y, psi } = place;
+        let spin = curvature + profile * s * c.delta_0 / r0 + c.delta * y / (a * r0);
         [
-            part(&segment.at_zero, 0.0, 1.0),
-            part(&segment.per_curvature, 1.0, 0.0),
+            -s * c.f33 * (c.conicity * y / r0 - a * curvature),
+            c.f11 * psi + c.f12 * spin,
         ]
+    }
+
+    /// Lateral part of the normal force on a wheel, linear likewise, N.
+    pub(crate) fn normal(&self, place: Place, profile: f64, side: Side) -> f64 {
+        let c = self.contact[side as usize];
+        let a = self.vehicle.wheelset.half_contact_distance;
+        let angle = profile * side.sign() * c.delta_0 + (c.delta + c.a11) * place.y / a;
+        -self.wheel_load[side as usize] * angle
     }
 
     /// μN of the wheels on a side, N.
@@ -112,16 +136,15 @@ impl CurvingModel {
         let segment = self.segment_at(curvature);
         let [zero, slope] = self.creep_forces(segment, i, side);
         let [f_x, f_y] = [0, 1].map(|k| zero[k] + curvature * slope[k]);
-        let c = self.contact[side as usize];
-        let a = self.vehicle.wheelset.half_contact_distance;
-        let y = segment.displacement(i, curvature);
-        let vertical = self.wheel_load[side as usize];
-        let normal = -vertical * (side.sign() * c.delta_0 + (c.delta + c.a11) * y / a);
+        let place = Place {
+            y: segment.displacement(i, curvature),
+            psi: segment.displacement(4 + i, curvature),
+        };
         WheelForces {
             longitudinal_creep: f_x,
             lateral_creep: f_y,
-            lateral: f_y + normal,
-            vertical,
+            lateral: f_y + self.normal(place, 1.0, side),
+            vertical: self.wheel_load[side as usize],
             adhesion_used: f_x.hypot(f_y) / self.adhesion_limit(side),
         }
     }

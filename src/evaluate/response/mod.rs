@@ -15,12 +15,12 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::{
     dynamics::{
-        ForcedModel,
+        ForcedModel, ForcedTangent,
         elimination::{Factors, LANES, Lanes, Stiffness, each},
     },
     track::Track,
 };
-use terms::{Force, OutputTerms, Source};
+use terms::{Coupling, Force, OutputTerms, Source};
 
 /// A forced model at one speed, ready to be evaluated at many frequencies, [`LANES`] at a time,
 /// without allocation.
@@ -33,6 +33,7 @@ pub struct Response<'a> {
     stiffness: Stiffness,
     factors: Factors,
     excitations: Vec<Excited>,
+    constants: usize,
 }
 
 /// One excitation: what it puts on the coordinates, what outputs it reaches, and the response.
@@ -40,6 +41,24 @@ struct Excited {
     forces: Vec<Force>,
     outputs: Vec<OutputTerms>,
     q: Vec<Lanes>,
+    tangents: Vec<Tangent>,
+    /// Derivative of q, and the outputs.
+    dq: Vec<Lanes>,
+    transfers: Vec<Lanes>,
+}
+
+/// What a design constant changes for an excitation.
+struct Tangent {
+    forces: Vec<Force>,
+    couplings: Vec<Coupling>,
+    outputs: Vec<Option<OutputTerms>>,
+}
+
+impl Tangent {
+    fn is_zero(&self) -> bool {
+        let none = self.forces.is_empty() && self.couplings.is_empty();
+        none && self.outputs.iter().all(Option::is_none)
+    }
 }
 
 impl<'a> Response<'a> {
@@ -58,6 +77,9 @@ impl<'a> Response<'a> {
             forces: terms::forces(system, excitation, speed),
             outputs: terms::outputs(model, excitation, outputs.clone()),
             q: vec![Lanes::ZERO; system.order()],
+            tangents: Vec::new(),
+            dq: vec![Lanes::ZERO; system.order()],
+            transfers: vec![Lanes::ZERO; outputs.len()],
         });
         Self {
             excitations: excitations.collect(),
@@ -68,7 +90,35 @@ impl<'a> Response<'a> {
             track,
             speed,
             outputs,
+            constants: 0,
         }
+    }
+
+    /// With the derivatives of all densities by design constants.
+    #[must_use]
+    pub fn with_tangents(mut self, tangents: &[ForcedTangent]) -> Self {
+        let order = self.model.system.order();
+        for (excited, excitation) in self.excitations.iter_mut().zip(&self.model.excitations) {
+            let of = |tangent: &ForcedTangent| {
+                let (forces, couplings) =
+                    terms::tangents(&tangent.system, order, excitation, self.speed);
+                let outputs = tangent.outputs[self.outputs.clone()].iter();
+                let terms = |output| OutputTerms::new(output, excitation, order);
+                Tangent {
+                    forces,
+                    couplings,
+                    outputs: outputs.map(|output| output.as_ref().map(terms)).collect(),
+                }
+            };
+            excited.tangents = tangents.iter().map(of).collect();
+        }
+        self.constants = tangents.len();
+        self
+    }
+
+    /// Number of design constants by which it is differentiated.
+    pub fn constants(&self) -> usize {
+        self.constants
     }
 
     /// Number of its outputs.
@@ -78,24 +128,37 @@ impl<'a> Response<'a> {
 
     /// Power spectral densities of the outputs at frequencies `f` in Hz, one-sided, per Hz.
     pub fn densities(&mut self, f: &[f64; LANES], densities: &mut [[f64; LANES]]) {
+        self.with_derivatives(f, densities, &mut []);
+    }
+
+    /// As [`Response::densities`], with the derivatives of all of them by the first design constant, by
+    /// the second, and so on; as many as there is room for.
+    pub fn with_derivatives(
+        &mut self,
+        f: &[f64; LANES],
+        densities: &mut [[f64; LANES]],
+        derivatives: &mut [[f64; LANES]],
+    ) {
         let arch = self.arch;
         arch.dispatch(Batch {
             response: self,
             f,
             densities,
+            derivatives,
         });
         if self.factors.sound != [true; LANES] {
             self.mend(f, densities);
         }
     }
 
-    /// Goes over the frequencies at which the elimination lost digits.
+    /// Goes over the frequencies at which the elimination lost digits; derivatives are left as they are.
     #[cold]
     fn mend(&self, f: &[f64; LANES], densities: &mut [[f64; LANES]]) {
         let mut plain = vec![0.0; self.model.outputs.len()];
         for l in (0..LANES).filter(|&l| !self.factors.sound[l]) {
             plain::densities(self.model, self.track, self.speed, f[l], &mut plain);
-            for (density, value) in densities.iter_mut().zip(&plain[self.outputs.clone()]) {
+            let outputs = plain[self.outputs.clone()].iter();
+            for (density, value) in densities.iter_mut().zip(outputs) {
                 density[l] = *value;
             }
         }
@@ -106,6 +169,7 @@ struct Batch<'r, 'a> {
     response: &'r mut Response<'a>,
     f: &'r [f64; LANES],
     densities: &'r mut [[f64; LANES]],
+    derivatives: &'r mut [[f64; LANES]],
 }
 
 impl WithSimd for Batch<'_, '_> {
@@ -131,31 +195,84 @@ impl WithSimd for Batch<'_, '_> {
         stiffness.factor(s, factors);
         let phases = phases(&omega, &model.lags, *speed);
         self.densities.fill([0.0; LANES]);
+        self.derivatives.fill([0.0; LANES]);
         for (excited, excitation) in excitations.iter_mut().zip(&model.excitations) {
-            let Excited { forces, outputs, q } = excited;
+            let Excited {
+                forces,
+                outputs,
+                q,
+                tangents,
+                dq,
+                transfers,
+            } = excited;
             q.fill(Lanes::ZERO);
-            for force in forces.iter() {
-                let transmitted = Lanes {
-                    re: [force.k; LANES],
-                    im: each(|l| omega[l] * force.c),
-                };
-                let q = &mut q[force.coordinate];
-                *q = q.plus_product(transmitted, phases[force.wheelset]);
-            }
+            add_forces(q, forces, &omega, &phases);
             stiffness.solve(factors, q);
             // S in time frequency: S(Ω) dΩ/df with Ω = 2πf/V (3.4.2-5, 6).
             let spectrum = track.spectrum(excitation.irregularity);
             let input = omega.map(|omega| spectrum.density(omega / *speed) * TAU / *speed);
-            for (density, output) in self.densities.iter_mut().zip(outputs.iter()) {
+            let all = transfers.iter_mut().zip(outputs.iter());
+            for (density, (kept, output)) in self.densities.iter_mut().zip(all) {
                 let transfer = output.transfer(omega, |source| match source {
                     Source::Coordinate(i) => q[i],
                     Source::Wheelset(i) => phases[i],
                 });
+                *kept = transfer;
                 let square = transfer.norm_sqr();
                 let sum = *density;
                 *density = each(|l| square[l].mul_add(input[l], sum[l]));
             }
+            let derivatives = self.derivatives.chunks_exact_mut(outputs.len());
+            for (tangent, derivatives) in tangents.iter().zip(derivatives) {
+                if tangent.is_zero() {
+                    continue;
+                }
+                // D ∂q = −∂D q − (iω ∂C_u + ∂K_u) u
+                dq.fill(Lanes::ZERO);
+                add_forces(dq, &tangent.forces, &omega, &phases);
+                for coupling in &tangent.couplings {
+                    let transmitted = Lanes {
+                        re: [coupling.k; LANES],
+                        im: each(|l| omega[l] * coupling.c),
+                    };
+                    let (row, from) = (coupling.row, q[coupling.column]);
+                    dq[row] = dq[row].plus_product(transmitted, from);
+                }
+                stiffness.solve(factors, dq);
+                for (k, sum) in derivatives.iter_mut().enumerate() {
+                    let mut change = outputs[k].transfer(omega, |source| match source {
+                        Source::Coordinate(i) => dq[i],
+                        Source::Wheelset(_) => Lanes::ZERO,
+                    });
+                    if let Some(output) = &tangent.outputs[k] {
+                        let own = output.transfer(omega, |source| match source {
+                            Source::Coordinate(i) => q[i],
+                            Source::Wheelset(i) => phases[i],
+                        });
+                        change = change.plus_scaled([1.0; LANES], own);
+                    }
+                    let (h, before) = (transfers[k], *sum);
+                    // ∂|H|² = 2 Re(H̄ ∂H)
+                    let product = each(|l| h.im[l].mul_add(change.im[l], h.re[l] * change.re[l]));
+                    *sum = each(|l| (2.0 * input[l]).mul_add(product[l], before[l]));
+                }
+            }
         }
+    }
+}
+
+/// Adds what the irregularity under the wheelsets puts on the coordinates.
+#[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
+#[inline(always)]
+fn add_forces(q: &mut [Lanes], forces: &[Force], omega: &[f64; LANES], phases: &[Lanes; 4]) {
+    let omega = *omega;
+    for force in forces {
+        let transmitted = Lanes {
+            re: [force.k; LANES],
+            im: each(|l| omega[l] * force.c),
+        };
+        let q = &mut q[force.coordinate];
+        *q = q.plus_product(transmitted, phases[force.wheelset]);
     }
 }
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::dynamics::{
-    Excitation, ForcedModel, LinearSystem, Row,
+    Excitation, ForcedModel, LinearSystem, Output, Row, SystemTangent,
     elimination::{LANES, Lanes, each},
 };
 
@@ -38,6 +38,45 @@ pub(super) fn forces(system: &LinearSystem, excitation: &Excitation, speed: f64)
     forces
 }
 
+/// −(∂K + iω ∂C) on one coordinate, per unit of another.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Coupling {
+    pub row: usize,
+    pub column: usize,
+    pub k: f64,
+    pub c: f64,
+}
+
+/// What a tangent of the system adds on the right side, at a speed, m/s: from the irregularity of an
+/// excitation, and from the motion of the coordinates.
+pub(super) fn tangents(
+    tangent: &SystemTangent,
+    order: usize,
+    excitation: &Excitation,
+    speed: f64,
+) -> (Vec<Force>, Vec<Coupling>) {
+    let (mut forces, mut couplings) = (Vec::new(), Vec::new());
+    for entry in &tangent.entries {
+        let (k, c) = (-entry.k, -entry.damping_at(speed));
+        if entry.column < order {
+            couplings.push(Coupling {
+                row: entry.row,
+                column: entry.column,
+                k,
+                c,
+            });
+        } else if let Some(wheelset) = excitation.inputs.iter().position(|&j| j == entry.column) {
+            forces.push(Force {
+                coordinate: entry.row,
+                wheelset,
+                k: excitation.scale * k,
+                c: excitation.scale * c,
+            });
+        }
+    }
+    (forces, couplings)
+}
+
 /// Where a term of an output comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Source {
@@ -62,32 +101,39 @@ pub(super) fn outputs(
     range: Range<usize>,
 ) -> Vec<OutputTerms> {
     let n = model.system.order();
-    let terms = |row: &Row| {
-        let mut terms: Vec<(Source, f64)> = Vec::new();
-        for &(i, c) in row.terms() {
-            let (source, c) = if i < n {
-                (Source::Coordinate(i), c)
-            } else {
-                let Some(wheelset) = excitation.inputs.iter().position(|&j| j == i) else {
-                    continue;
-                };
-                (Source::Wheelset(wheelset), c * excitation.scale)
-            };
-            match terms.iter_mut().find(|(s, _)| *s == source) {
-                Some((_, sum)) => *sum += c,
-                None => terms.push((source, c)),
-            }
-        }
-        terms
-    };
     let outputs = model.outputs[range].iter();
     outputs
-        .map(|output| OutputTerms {
+        .map(|output| OutputTerms::new(output, excitation, n))
+        .collect()
+}
+
+impl OutputTerms {
+    /// Of an output of a model with `n` coordinates.
+    pub fn new(output: &Output, excitation: &Excitation, n: usize) -> Self {
+        let terms = |row: &Row| {
+            let mut terms: Vec<(Source, f64)> = Vec::new();
+            for &(i, c) in row.terms() {
+                let (source, c) = if i < n {
+                    (Source::Coordinate(i), c)
+                } else {
+                    let Some(wheelset) = excitation.inputs.iter().position(|&j| j == i) else {
+                        continue;
+                    };
+                    (Source::Wheelset(wheelset), c * excitation.scale)
+                };
+                match terms.iter_mut().find(|(s, _)| *s == source) {
+                    Some((_, sum)) => *sum += c,
+                    None => terms.push((source, c)),
+                }
+            }
+            terms
+        };
+        Self {
             displacement: terms(&output.displacement),
             velocity: terms(&output.velocity),
             acceleration: terms(&output.acceleration),
-        })
-        .collect()
+        }
+    }
 }
 
 #[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.

@@ -1,0 +1,154 @@
+//! Derivatives of a model's equations by a design constant.
+
+use nalgebra::{Complex, DVector};
+
+use super::{ForcedModel, LinearSystem, Output, Row};
+
+/// Derivative of the matrices of a linear system: what is not zero in them.
+#[derive(Debug, Clone)]
+pub struct SystemTangent {
+    /// Entries over [q, u].
+    pub entries: Vec<TangentEntry>,
+}
+
+/// Derivative of one entry of K and of C0, C1, C2.
+#[derive(Debug, Clone, Copy)]
+pub struct TangentEntry {
+    /// Row, a coordinate.
+    pub row: usize,
+    /// Column, over [q, u].
+    pub column: usize,
+    /// Of K.
+    pub k: f64,
+    /// Of C0, C1, C2.
+    pub c: [f64; 3],
+}
+
+impl TangentEntry {
+    /// Of C at speed V, m/s.
+    pub fn damping_at(&self, v: f64) -> f64 {
+        self.c[0] + self.c[1] / v + self.c[2] * v
+    }
+}
+
+/// Derivative of a forced model.
+#[derive(Debug, Clone)]
+pub struct ForcedTangent {
+    /// Of its equations of motion.
+    pub system: SystemTangent,
+    /// Of its outputs; `None` for those that stay as they are.
+    pub outputs: Vec<Option<Output>>,
+}
+
+/// Sums of this share of their terms are rounding.
+const ROUNDING: f64 = 1e-11;
+
+/// Weighted sum, and zero where that is rounding.
+fn sum(terms: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let (mut sum, mut size) = (0.0, 0.0_f64);
+    for (weight, value) in terms {
+        sum += weight * value;
+        size = size.max((weight * value).abs());
+    }
+    if sum.abs() > ROUNDING * size {
+        sum
+    } else {
+        0.0
+    }
+}
+
+impl SystemTangent {
+    /// Weighted sum of systems of one structure.
+    pub fn of(systems: &[(f64, &LinearSystem)]) -> Self {
+        let (rows, columns) = systems[0].1.stiffness.shape();
+        let mut entries = Vec::new();
+        for row in 0..rows {
+            for column in 0..columns {
+                let at = (row, column);
+                let k = sum(systems.iter().map(|(w, system)| (*w, system.stiffness[at])));
+                let c = std::array::from_fn(|n| {
+                    sum(systems
+                        .iter()
+                        .map(|(w, system)| (*w, system.damping[n][at])))
+                });
+                if k != 0.0 || c.iter().any(|c| *c != 0.0) {
+                    entries.push(TangentEntry { row, column, k, c });
+                }
+            }
+        }
+        Self { entries }
+    }
+
+    /// wᴴ (∂K + s ∂C(V)) x over the coordinates.
+    pub fn between(
+        &self,
+        left: &DVector<Complex<f64>>,
+        s: Complex<f64>,
+        v: f64,
+        right: &DVector<Complex<f64>>,
+    ) -> Complex<f64> {
+        let n = right.len();
+        let of_coordinates = self.entries.iter().filter(|entry| entry.column < n);
+        of_coordinates
+            .map(|entry| {
+                let d = s * entry.damping_at(v) + entry.k;
+                left[entry.row].conj() * d * right[entry.column]
+            })
+            .sum()
+    }
+}
+
+impl ForcedTangent {
+    /// Of a model that stays as it is, with so many outputs.
+    pub fn zero(outputs: usize) -> Self {
+        Self {
+            system: SystemTangent {
+                entries: Vec::new(),
+            },
+            outputs: vec![None; outputs],
+        }
+    }
+
+    /// Weighted sum of models of one structure.
+    pub fn of(models: &[(f64, &ForcedModel)]) -> Self {
+        let systems: Vec<(f64, &LinearSystem)> = models
+            .iter()
+            .map(|(w, model)| (*w, &model.system))
+            .collect();
+        let columns = systems[0].1.stiffness.ncols();
+        let row = |of: &dyn Fn(&ForcedModel) -> Row| {
+            let dense: Vec<(f64, Vec<f64>)> = models
+                .iter()
+                .map(|(w, model)| {
+                    let mut dense = vec![0.0; columns];
+                    for &(i, c) in of(model).terms() {
+                        dense[i] += c;
+                    }
+                    (*w, dense)
+                })
+                .collect();
+            let terms = (0..columns).map(|i| (i, sum(dense.iter().map(|(w, row)| (*w, row[i])))));
+            terms
+                .filter(|(_, c)| *c != 0.0)
+                .fold(Row::default(), |row, (i, c)| row + c * Row::unit(i))
+        };
+        let outputs = (0..models[0].1.outputs.len()).map(|k| {
+            let first = &models[0].1.outputs[k];
+            if models.iter().all(|(_, model)| model.outputs[k] == *first) {
+                return None;
+            }
+            let output = Output {
+                displacement: row(&|model| model.outputs[k].displacement.clone()),
+                velocity: row(&|model| model.outputs[k].velocity.clone()),
+                acceleration: row(&|model| model.outputs[k].acceleration.clone()),
+            };
+            let rows = [&output.displacement, &output.velocity, &output.acceleration];
+            let changes = rows.iter().any(|row| !row.terms().is_empty());
+            changes.then_some(output)
+        });
+        Self {
+            outputs: outputs.collect(),
+            system: SystemTangent::of(&systems),
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Exact derivatives of the performance indices by the constants of Table 4.1.1.
+//!
+//! | index | derivative |
+//! |---|---|
+//! | RMS values | the response's own, frequency by frequency: D ∂q = −∂D q − ∂(iωC_u + K_u) u ([`ForcedTangent`]) |
+//! | eigenvalues, damping ratios | ∂s = −wᴴ(∂K + s ∂C)v / wᴴD′v ([`modes`]) |
+//! | critical speed | ∂V = −Re ∂s / Re ∂s/∂V, on which Re s stays zero ([`modes`]) |
+//! | curves, forces in them | of the equilibrium and of the limit that is met ([`curving`]) |
+//!
+//! The derivatives of the matrices come from models built with other constants; nothing is solved
+//! twice but with the factors that are there.
+
+pub mod curving;
+pub mod modes;
+mod stencil;
+
+use crate::{
+    case::Case,
+    dynamics::{ForcedModel, ForcedTangent, LateralModel, VerticalModel},
+    parameter::{Parameter, TradeOff},
+};
+use stencil::Stencil;
+
+/// Constants by which indices are differentiated, at a case.
+#[derive(Debug, Clone)]
+pub struct Constants<'a> {
+    case: &'a Case,
+    stencils: Vec<(Parameter, Stencil)>,
+}
+
+impl<'a> Constants<'a> {
+    /// Some of [`Parameter::TEN`].
+    pub fn new(case: &'a Case, constants: &[Parameter]) -> Self {
+        let stencil = |constant: &Parameter| (*constant, Stencil::new(case, *constant));
+        Self {
+            case,
+            stencils: constants.iter().map(stencil).collect(),
+        }
+    }
+
+    /// How many.
+    pub fn len(&self) -> usize {
+        self.stencils.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.stencils.is_empty()
+    }
+
+    /// The case.
+    pub fn case(&self) -> &Case {
+        self.case
+    }
+
+    /// Derivatives of the lateral model.
+    pub fn lateral(&self, model: &LateralModel) -> Vec<ForcedTangent> {
+        let acts = |constant| constant != Parameter::SecondaryYawBreakawayTorque;
+        self.of(&model.forced, acts, |case| LateralModel::new(case).forced)
+    }
+
+    /// Derivatives of the vertical model.
+    pub fn vertical(&self, model: &VerticalModel) -> Vec<ForcedTangent> {
+        let acts = |constant: Parameter| constant.trade_off() == TradeOff::Vertical;
+        self.of(&model.forced, acts, |case| VerticalModel::new(case).forced)
+    }
+
+    fn of(
+        &self,
+        own: &ForcedModel,
+        acts: impl Fn(Parameter) -> bool,
+        model: impl Fn(&Case) -> ForcedModel,
+    ) -> Vec<ForcedTangent> {
+        let tangent = |(constant, stencil): &(Parameter, Stencil)| {
+            if !acts(*constant) {
+                return ForcedTangent::zero(own.outputs.len());
+            }
+            let others = stencil.others(&model);
+            let mut models = vec![(stencil.own(), own)];
+            models.extend(others.iter().map(|(weight, model)| (*weight, model)));
+            ForcedTangent::of(&models)
+        };
+        self.stencils.iter().map(tangent).collect()
+    }
+}
