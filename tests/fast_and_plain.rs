@@ -69,13 +69,15 @@ fn critical_speeds_are_those_of_full_spectra() {
     }
 }
 
-/// Vehicles that hunt from 35 to 40 mph and from 22 to 27 mph, and again from much higher speeds on:
-/// steps over the speed that are too long pass over the first.
+/// Vehicles that hunt from 22 to 41 mph at most, and again from much higher speeds on: steps over the
+/// speed that are too long pass over the first, or take one of two modes nearby for the other.
 #[test]
 fn brief_instabilities_far_below_another_are_found() {
     for (conicity, longitudinal, lateral, mph) in [
         (0.05, 618_556.365_226_948_4, 10_866_311.267_168_801, 35.4),
         (0.10, 392_708.419_161_130_4, 775_955.219_905_104_7, 22.1),
+        (0.05, 532_684.450_048_975_4, 3_110_928.461_751_77, 32.33),
+        (0.10, 413_900.884_023_913_1, 708_904.8, 22.17),
     ] {
         let mut case = Case::prototype();
         case.service.speed = 110.0 * MPH;

@@ -107,7 +107,7 @@ fn refinement_changes_nothing() {
             let [coarse, fine] = [1e-6, 1e-12].map(|tolerance| {
                 let mut response = Response::new(&model, &case.service.track, speed);
                 integrate(&edges, [outputs; 2], tolerance, |f, v| {
-                    response.densities(f, v)
+                    response.densities(f, v);
                 })
             });
             assert!(coarse.converged && fine.converged);

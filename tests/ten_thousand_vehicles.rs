@@ -461,7 +461,7 @@ fn refinement_changes_nothing() {
             let [coarse, fine] = [(&edges, 1e-6), (&finer, 1e-11)].map(|(edges, tolerance)| {
                 let mut response = Response::new(&model, &case.service.track, speed);
                 integrate(edges, [outputs; 2], tolerance, |f, v| {
-                    response.densities(f, v)
+                    response.densities(f, v);
                 })
             });
             assert!(coarse.converged && fine.converged, "vehicle {seed}");

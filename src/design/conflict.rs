@@ -12,7 +12,7 @@ use crate::{
         archive::Archive,
         certificate::HOLDS,
         local::Status,
-        problem::Problem,
+        problem::{Detail, Problem},
         solve::{Start, solve},
     },
 };
@@ -95,7 +95,7 @@ fn alone(study: &Study, demand: usize, x: &[f64], seed: u64, archive: &Archive) 
     }
     let term = &study.terms()[demand];
     let x = &found.solved.point.x[..study.parameters().len()];
-    let measured = relaxed.measure(x).ok()?;
+    let measured = relaxed.measure(x, Detail::Values).ok()?;
     let pieces: Vec<_> = measured
         .into_iter()
         .filter(|p| {

@@ -1,13 +1,17 @@
 //! A design study: parameters that may vary, indices to be as good as can be, and demands, over one
 //! or several operating conditions, as a problem for the optimiser.
 
-use super::measure::{Wanted, measure, piece_name};
+use super::measure::{Wanted, measure, measure_graded, piece_name};
+mod chain;
+
+use chain::Chain;
+
 use crate::{
     case::Case,
     index::{Index, Scale, Sense},
     optimize::{
         follow,
-        problem::{self, FEASIBLE, Failure, Key, Piece, Problem, Values, Variable},
+        problem::{self, Detail, FEASIBLE, Failure, Key, Piece, Problem, Values, Variable},
     },
     parameter::Parameter,
     spec::{Condition, Interval},
@@ -279,12 +283,19 @@ impl Study {
 
     /// The nominal case of the design at scaled coordinates `x`.
     pub fn design(&self, x: &[f64]) -> Case {
+        let pairs = self.variables.iter().zip(x);
+        let values: Vec<f64> = pairs.map(|(variable, x)| variable.value(*x)).collect();
+        self.with_values(&values)
+    }
+
+    /// The nominal case with such values of the parameters that vary, SI.
+    fn with_values(&self, values: &[f64]) -> Case {
         let mut case = self.base.clone();
         // Twice: a rule may depend on what is set after it.
         for _ in 0..2 {
             for parameter in Parameter::ALL {
                 if let Some(i) = self.parameters.iter().position(|p| *p == parameter) {
-                    parameter.set(&mut case, self.variables[i].value(x[i]));
+                    parameter.set(&mut case, values[i]);
                 }
                 if let Some((_, rule)) = self.rules.iter().find(|(p, _)| *p == parameter) {
                     let value = match rule {
@@ -382,6 +393,23 @@ impl Term {
         self.index == Index::CriticalSpeed && matches!(self.role, Role::Objective { .. })
     }
 
+    /// Derivative of [`Term::scaled`].
+    fn slope(&self, value: f64) -> f64 {
+        let worse = |origin: f64| match (self.index.scale(), self.index.sense()) {
+            (Scale::Linear, _) => -DAMPING,
+            _ if value / origin < LEAST => 0.0,
+            (Scale::Logarithmic, Sense::AtLeast) => -1.0 / value,
+            (Scale::Logarithmic, Sense::AtMost) => 1.0 / value,
+        };
+        match self.role {
+            Role::Objective { weight, origin, .. } => weight * worse(origin),
+            Role::Constraint { bound } => match self.wanted {
+                Wanted::DampingTo { .. } if self.index == Index::CriticalSpeed => -DAMPING,
+                _ => worse(bound),
+            },
+        }
+    }
+
     fn scaled(&self, value: f64) -> f64 {
         let worse_than = |origin: f64| match (self.index.scale(), self.index.sense()) {
             (Scale::Linear, _) => DAMPING * (origin - value),
@@ -443,7 +471,11 @@ impl Problem for Study {
         }
     }
 
-    fn measure(&self, x: &[f64]) -> Result<Vec<Piece>, Failure> {
+    fn has_gradients(&self) -> bool {
+        true
+    }
+
+    fn measure(&self, x: &[f64], detail: Detail) -> Result<Vec<Piece>, Failure> {
         let case = self.design(x);
         let mut measured = Vec::new();
         for condition in 0..self.conditions.len() {
@@ -464,15 +496,29 @@ impl Problem for Study {
                 })
                 .collect();
             let case = self.in_condition(&case, condition);
-            for ((i, _), pieces) in here.iter().zip(measure(&case, &wanted)?) {
-                measured.extend(pieces.into_iter().map(|p| Piece {
-                    index: i * PIECES + p.index,
-                    ..p
+            let chain = match detail {
+                Detail::Values => None,
+                Detail::Gradients => Some(Chain::new(self, x, condition)),
+            };
+            let all = match &chain {
+                None => measure(&case, &wanted)?,
+                Some(chain) => measure_graded(&case, &wanted, &chain.constants)?,
+            };
+            for ((i, _), pieces) in here.iter().zip(all) {
+                let is_lifted = self.is_lifted && self.terms[*i].is_speed_objective();
+                measured.extend(pieces.into_iter().map(|p| {
+                    let gradient = p.gradient.as_ref().zip(chain.as_ref());
+                    Piece {
+                        index: i * PIECES + p.index,
+                        gradient: gradient.map(|(over, chain)| chain.gradient(over, is_lifted)),
+                        ..p
+                    }
                 }));
-                if let Some(speed) = self.speed(x)
-                    && self.terms[*i].is_speed_objective()
-                {
-                    measured.push(Piece::single(i * PIECES + SPEED, speed));
+                if let Some(speed) = self.speed(x).filter(|_| is_lifted) {
+                    measured.push(Piece {
+                        gradient: chain.as_ref().map(Chain::of_speed),
+                        ..Piece::single(i * PIECES + SPEED, speed)
+                    });
                 }
             }
         }
@@ -498,12 +544,20 @@ impl Problem for Study {
             }
             let damping =
                 self.is_lifted && term.is_speed_objective() && piece.index % PIECES != SPEED;
-            let value = if damping {
-                FEASIBLE - DAMPING * piece.value
+            let (value, slope) = if damping {
+                (FEASIBLE - DAMPING * piece.value, -DAMPING)
             } else {
-                term.scaled(piece.value)
+                (term.scaled(piece.value), term.slope(piece.value))
             };
-            let scaled = Piece { value, ..*piece };
+            let gradient = piece.gradient.iter();
+            let scaled = Piece {
+                value,
+                index: piece.index,
+                label: piece.label,
+                gradient: gradient
+                    .map(|g| g.iter().map(|d| slope * d).collect())
+                    .next(),
+            };
             match term.role {
                 Role::Objective { group, .. } if !damping => values.objectives[group].push(scaled),
                 _ => values.constraints.push(scaled),

@@ -4,6 +4,10 @@
 //! minima of the damping ratios over the speed change smoothly with the design, also where an
 //! instability is born at some speed within the range, at which the critical speed jumps.
 
+use std::f64::consts::TAU;
+
+use nalgebra::Complex;
+
 use super::{
     branches::{Branches, COMPLETE, Known, Search},
     mode::{damping_ratio, frequency},
@@ -111,6 +115,12 @@ impl DampingRange {
 }
 
 impl DampingMinimum {
+    /// s, rad/s.
+    pub fn eigenvalue(&self) -> Complex<f64> {
+        let (zeta, size) = (self.damping_ratio, TAU * self.frequency);
+        Complex::new(-zeta, (1.0 - zeta * zeta).max(0.0).sqrt()) * size
+    }
+
     fn new(place: Place, known: &Known) -> Self {
         Self {
             place,

@@ -9,7 +9,7 @@ use super::{
 use crate::{
     case::Case,
     comfort::{iso_boundary, sperling, third_octave, weighting},
-    dynamics::{ForcedModel, LateralModel, Poles, VerticalModel},
+    dynamics::{ForcedModel, ForcedTangent, LateralModel, Poles, VerticalModel},
 };
 
 /// What one passenger point feels in one direction.
@@ -53,7 +53,23 @@ impl PassengerRide {
     ///
     /// [`NoRide`] where there is none.
     pub fn lateral(model: &LateralModel, case: &Case, poles: &Poles) -> Result<[Self; 3], NoRide> {
-        Spectra::new(&model.forced, case, poles, Direction::Lateral).map(|s| s.passengers())
+        Self::lateral_with_derivatives(model, case, poles, &[]).map(|(passengers, _)| passengers)
+    }
+
+    /// As [`PassengerRide::lateral`], with the derivatives of the band accelerations by design
+    /// constants.
+    ///
+    /// # Errors
+    ///
+    /// [`NoRide`] where there is none.
+    pub fn lateral_with_derivatives(
+        model: &LateralModel,
+        case: &Case,
+        poles: &Poles,
+        tangents: &[ForcedTangent],
+    ) -> Result<([Self; 3], BandDerivatives), NoRide> {
+        let spectra = Spectra::new(&model.forced, case, poles, tangents, Direction::Lateral)?;
+        Ok(spectra.passengers(tangents.len()))
     }
 
     /// At c.g., front and rear, vertically.
@@ -66,9 +82,28 @@ impl PassengerRide {
         case: &Case,
         poles: &Poles,
     ) -> Result<[Self; 3], NoRide> {
-        Spectra::new(&model.forced, case, poles, Direction::Vertical).map(|s| s.passengers())
+        Self::vertical_with_derivatives(model, case, poles, &[]).map(|(passengers, _)| passengers)
+    }
+
+    /// As [`PassengerRide::vertical`], with the derivatives of the band accelerations by design
+    /// constants.
+    ///
+    /// # Errors
+    ///
+    /// [`NoRide`] where there is none.
+    pub fn vertical_with_derivatives(
+        model: &VerticalModel,
+        case: &Case,
+        poles: &Poles,
+        tangents: &[ForcedTangent],
+    ) -> Result<([Self; 3], BandDerivatives), NoRide> {
+        let spectra = Spectra::new(&model.forced, case, poles, tangents, Direction::Vertical)?;
+        Ok(spectra.passengers(tangents.len()))
     }
 }
+
+/// Derivatives of the RMS accelerations in the bands at three points, by each constant.
+pub type BandDerivatives = Vec<[Vec<f64>; 3]>;
 
 /// Direction of the acceleration, which decides the comfort measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,6 +148,7 @@ impl Spectra {
         model: &ForcedModel,
         case: &Case,
         poles: &Poles,
+        tangents: &[ForcedTangent],
         direction: Direction,
     ) -> Result<Self, NoRide> {
         stationary(poles)?;
@@ -123,6 +159,7 @@ impl Spectra {
         edges.sort_by(f64::total_cmp);
         edges.dedup();
         let accelerations = Response::of(model, &case.service.track, case.service.speed, 0..3);
+        let accelerations = accelerations.with_tangents(tangents);
         let integrals = mean_squares(accelerations, &edges, 9, |f, values| {
             let (densities, weighted) = values.split_at_mut(3);
             let weights = f.map(|f| direction.weights(f));
@@ -142,8 +179,8 @@ impl Spectra {
         })
     }
 
-    fn passengers(&self) -> [PassengerRide; 3] {
-        std::array::from_fn(|point| {
+    fn passengers(&self, constants: usize) -> ([PassengerRide; 3], BandDerivatives) {
+        let passengers: [PassengerRide; 3] = std::array::from_fn(|point| {
             let weighted = |k: usize| self.integrals.total(3 + 3 * point + k);
             PassengerRide {
                 acceleration: self.integrals.total(point).sqrt(),
@@ -152,27 +189,45 @@ impl Spectra {
                 w_z: sperling::w_z(weighted(2)),
                 bands: self.bands(point),
             }
-        })
+        });
+        let by = |constant: usize| {
+            std::array::from_fn(|point| {
+                let bands = self.in_bands(12 + 3 * constant + point);
+                let rms = passengers[point].bands.iter().map(|band| band.acceleration);
+                let slope = |(square, rms): (f64, f64)| square / (2.0 * rms).max(f64::MIN_POSITIVE);
+                bands
+                    .map(|(_, square)| square)
+                    .zip(rms)
+                    .map(slope)
+                    .collect()
+            })
+        };
+        let derivatives = (0..constants).map(by).collect();
+        (passengers, derivatives)
     }
 
-    /// The bands that lie wholly within the range of integration.
-    fn bands(&self, point: usize) -> Vec<BandRide> {
-        let between = |low: f64, high: f64| -> f64 {
+    /// Centres of the bands that lie wholly within the range of integration, and the integrals of a
+    /// function over them.
+    fn in_bands(&self, function: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let between = move |low: f64, high: f64| -> f64 {
             let panels = self.edges.windows(2).enumerate();
             panels
                 .filter(|(_, ends)| ends[0] >= low && ends[1] <= high)
-                .map(|(panel, _)| self.integrals.band(panel, point))
+                .map(|(panel, _)| self.integrals.band(panel, function))
                 .sum()
         };
-        self.bands
-            .windows(2)
-            .filter_map(|edges| {
-                let centre = third_octave::centre_of(edges[0], edges[1])?;
-                Some(BandRide {
-                    centre,
-                    acceleration: between(edges[0], edges[1]).sqrt(),
-                    boundary: self.direction.boundary(centre),
-                })
+        self.bands.windows(2).filter_map(move |edges| {
+            let centre = third_octave::centre_of(edges[0], edges[1])?;
+            Some((centre, between(edges[0], edges[1])))
+        })
+    }
+
+    fn bands(&self, point: usize) -> Vec<BandRide> {
+        self.in_bands(point)
+            .map(|(centre, square)| BandRide {
+                centre,
+                acceleration: square.sqrt(),
+                boundary: self.direction.boundary(centre),
             })
             .collect()
     }

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use super::{
     journal::{Entry, Journal},
-    problem::{Failure, Key, Piece, Problem},
+    problem::{Detail, Failure, Key, Piece, Problem},
 };
 
 /// What a measurement gave.
@@ -146,8 +146,10 @@ impl<'a> Archive<'a> {
         &self,
         problem: &dyn Problem,
         designs: &[Vec<f64>],
+        detail: Detail,
     ) -> Result<Vec<Measured>, Stop> {
-        let keys: Vec<Key> = designs.iter().map(|x| problem.key(x)).collect();
+        let key = |x: &Vec<f64>| self.in_detail(problem.key(x), detail);
+        let keys: Vec<Key> = designs.iter().map(key).collect();
         let bits: Vec<Bits> = keys.iter().map(Bits::from).collect();
         // What is new is settled, in order, before anything runs side by side: count, budget and
         // journal never depend on the threads.
@@ -177,7 +179,8 @@ impl<'a> Archive<'a> {
                     return None;
                 }
                 let fresh = recorded.is_none();
-                let measured = recorded.unwrap_or_else(|| finite(problem.measure(&designs[i])));
+                let measured =
+                    recorded.unwrap_or_else(|| finite(problem.measure(&designs[i], detail)));
                 self.progress.evaluated();
                 Some((i, measured, fresh))
             })
@@ -206,9 +209,21 @@ impl<'a> Archive<'a> {
         Ok(bits.iter().map(|key| kept.known[key].clone()).collect())
     }
 
-    /// What a design is known to give.
+    /// What a design is known to give, in whatever detail.
     pub fn known(&self, key: &Key) -> Option<Measured> {
-        self.lock().known.get(&Bits::from(key)).cloned()
+        let kept = self.lock();
+        let known = |key: &Key| kept.known.get(&Bits::from(key)).cloned();
+        known(&graded(key)).or_else(|| known(key))
+    }
+
+    /// The key under which a measurement in some detail is kept; one with gradients serves for values.
+    fn in_detail(&self, key: Key, detail: Detail) -> Key {
+        let more = graded(&key);
+        if detail == Detail::Gradients || self.lock().known.contains_key(&Bits::from(&more)) {
+            more
+        } else {
+            key
+        }
     }
 
     /// Evaluations so far.
@@ -265,6 +280,14 @@ impl<'a> Archive<'a> {
     }
 }
 
+/// The key of a measurement with gradients.
+fn graded(key: &Key) -> Key {
+    Key {
+        what: format!("∇ {}", key.what),
+        at: key.at.clone(),
+    }
+}
+
 impl Kept {
     fn record(&mut self, key: &Key, measured: &Measured) {
         if let Some(journal) = &mut self.journal
@@ -276,12 +299,17 @@ impl Kept {
     }
 }
 
+fn finite_gradient(piece: &Piece) -> bool {
+    let gradient = piece.gradient.iter().flatten();
+    gradient.into_iter().all(|slope| slope.is_finite())
+}
+
 /// A failed evaluation never turns into a number, nor a number that is none into a result.
 fn finite(measured: Measured) -> Measured {
     let pieces = measured?;
     if pieces
         .iter()
-        .all(|p| p.value.is_finite() && p.label.is_finite())
+        .all(|p| p.value.is_finite() && p.label.is_finite() && finite_gradient(p))
     {
         Ok(pieces)
     } else {

@@ -4,7 +4,7 @@ use std::sync::{Mutex, MutexGuard};
 
 use super::{
     archive::{Archive, Stop},
-    problem::{Failure, Point, Problem, by_position},
+    problem::{Detail, Failure, Point, Problem, by_position},
 };
 
 /// A problem and its evaluated designs, in the order in which they were asked for.
@@ -41,7 +41,25 @@ impl<'a> Evaluations<'a> {
     ///
     /// [`Stop`] if the run is at its end; what was still evaluated counts among the points.
     pub fn all(&self, designs: &[Vec<f64>]) -> Result<Vec<Point>, Stop> {
-        let outcome = self.archive.measure(self.problem, designs);
+        self.in_detail(designs, Detail::Values)
+    }
+
+    /// As [`Evaluations::all`], with gradients where the problem has them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Evaluations::all`].
+    pub fn graded(&self, designs: &[Vec<f64>]) -> Result<Vec<Point>, Stop> {
+        let detail = if self.problem.has_gradients() {
+            Detail::Gradients
+        } else {
+            Detail::Values
+        };
+        self.in_detail(designs, detail)
+    }
+
+    fn in_detail(&self, designs: &[Vec<f64>], detail: Detail) -> Result<Vec<Point>, Stop> {
+        let outcome = self.archive.measure(self.problem, designs, detail);
         let point = |x: &Vec<f64>, measured: super::archive::Measured| Point {
             x: x.clone(),
             values: measured.map(|pieces| self.problem.judge(&pieces)),
@@ -59,8 +77,10 @@ impl<'a> Evaluations<'a> {
         };
         let mut points = self.lock();
         for p in &new {
-            if !points.iter().any(|known| known.x == p.x) {
-                points.push(p.clone());
+            match points.iter_mut().find(|known| known.x == p.x) {
+                None => points.push(p.clone()),
+                Some(known) if detail == Detail::Gradients => *known = p.clone(),
+                Some(_) => (),
             }
         }
         drop(points);

@@ -65,6 +65,9 @@ struct Line {
     failure: Option<Failure>,
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pieces: Vec<(usize, f64, f64)>,
+    /// Of the pieces, where they are known.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    gradients: Vec<Option<Vec<f64>>>,
 }
 
 impl Journal {
@@ -139,14 +142,14 @@ impl Journal {
     ///
     /// Any error of the file system.
     pub fn write(&mut self, key: &Key, measured: &Measured) -> io::Result<()> {
+        let pieces = measured.iter().flatten();
+        let graded = pieces.clone().any(|p| p.gradient.is_some());
+        let gradients = pieces.clone().filter(|_| graded);
         self.line(&Line {
             key: key.clone(),
             failure: measured.as_ref().err().copied(),
-            pieces: measured
-                .iter()
-                .flatten()
-                .map(|p| (p.index, p.label, p.value))
-                .collect(),
+            pieces: pieces.map(|p| (p.index, p.label, p.value)).collect(),
+            gradients: gradients.map(|p| p.gradient.clone()).collect(),
         })
     }
 
@@ -172,11 +175,14 @@ fn lock(file: &File) -> Result<(), JournalError> {
 
 fn parse(text: &str) -> Option<Entry> {
     let line: Line = serde_json::from_str(text).ok()?;
-    let pieces = line.pieces.into_iter();
-    let pieces = pieces.map(|(index, label, value)| Piece {
+    let mut gradients = line.gradients;
+    gradients.resize(line.pieces.len(), None);
+    let pieces = line.pieces.into_iter().zip(gradients);
+    let pieces = pieces.map(|((index, label, value), gradient)| Piece {
         value,
         index,
         label,
+        gradient,
     });
     Some(Entry {
         measured: match line.failure {
@@ -210,6 +216,7 @@ mod tests {
             value: std::f64::consts::PI / 7.0,
             index: 3,
             label: 0.1 + 0.2,
+            gradient: Some(vec![0.1, -1.0 / 3.0]),
         }];
         let mut journal = Journal::create(&path, &header("a")).unwrap();
         journal.write(&key(1), &Ok(pieces.clone())).unwrap();

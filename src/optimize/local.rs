@@ -14,7 +14,7 @@ use super::{
     archive::Stop,
     certificate::Certificate,
     evaluations::{Evaluations, near},
-    problem::{FEASIBLE, Point},
+    problem::{FEASIBLE, Point, Values},
     subproblem::{self, Step, Weights},
     surrogate::{Surrogate, along, displacement, pattern, unknown_directions},
 };
@@ -156,9 +156,16 @@ pub(super) fn with_curvature(evaluations: &Evaluations, found: Found) -> Result<
     let Some(certificate) = found.certificate.clone().filter(|c| c.curvature.is_none()) else {
         return Ok(found);
     };
-    evaluations.all(&pattern(&found.point.x, VERIFY, true))?;
-    let around = evaluations.around(&found.point.x);
-    let Some(surrogate) = Surrogate::fit(&found.point, &around, VERIFY) else {
+    let surrogate = if has_gradients(&found.point) {
+        let around = evaluations.graded(&pattern(&found.point.x, VERIFY, false))?;
+        let around: Vec<(f64, Point)> = around.into_iter().map(|p| (VERIFY, p)).collect();
+        Surrogate::from_gradients(&found.point, &around)
+    } else {
+        evaluations.all(&pattern(&found.point.x, VERIFY, true))?;
+        let around = evaluations.around(&found.point.x);
+        Surrogate::fit(&found.point, &around, VERIFY)
+    };
+    let Some(surrogate) = surrogate else {
         return Ok(found);
     };
     Ok(Found {
@@ -184,8 +191,14 @@ struct Region<'a> {
 impl Region<'_> {
     fn search(&mut self) -> Result<(), Stop> {
         let n = self.centre.x.len();
-        let first = pattern(&self.centre.x, self.step_length(), n <= FEW);
-        self.evaluations.all(&first)?;
+        let start = std::slice::from_ref(&self.centre.x);
+        if let Some(start) = self.evaluations.graded(start)?.pop() {
+            self.centre = start;
+        }
+        if !has_gradients(&self.centre) {
+            let first = pattern(&self.centre.x, self.step_length(), n <= FEW);
+            self.evaluations.all(&first)?;
+        }
         let mut verified = 0;
         let mut last: Option<Vec<f64>> = None;
         for _ in 0..ITERATIONS {
@@ -252,6 +265,13 @@ impl Region<'_> {
     fn model(&mut self) -> Result<Option<(Surrogate, Step)>, Stop> {
         let n = self.centre.x.len();
         let near = self.radius.max(CLOSEST);
+        if has_gradients(&self.centre) {
+            let around = self.evaluations.around(&self.centre.x);
+            let Some(surrogate) = Surrogate::from_gradients(&self.centre, &around) else {
+                return Ok(None);
+            };
+            return Ok(self.steer(&surrogate).map(|step| (surrogate, step)));
+        }
         for _ in 0..2 {
             let missing = unknown_directions(&self.displacements(), n, near);
             if missing.is_empty() {
@@ -328,7 +348,9 @@ impl Region<'_> {
             .zip(d)
             .map(|(x, d)| snap(x + d))
             .collect();
-        let trial = self.evaluations.at(&x)?;
+        let Some(trial) = self.evaluations.graded(&[x])?.pop() else {
+            return Ok(());
+        };
         let gain = self.centre.merit(self.penalty) - trial.merit(self.penalty);
         let ratio = gain / expected;
         let length = d.amax();
@@ -346,10 +368,21 @@ impl Region<'_> {
         Ok(())
     }
 
-    /// Verifies the first-order conditions with fresh evaluations on both sides of the centre.
+    /// Verifies the first-order conditions, by exact gradients or by fresh evaluations on both sides of
+    /// the centre.
     /// Whether the search should go on from there.
     fn verify(&mut self) -> Result<bool, Stop> {
         self.certificate = None;
+        if has_gradients(&self.centre) {
+            if let Some(surrogate) = Surrogate::from_gradients(&self.centre, &[])
+                && let Ok(values) = &self.centre.values
+            {
+                self.certificate = Certificate::new(&surrogate, values, &self.centre.x);
+            }
+            let residual = self.certificate.as_ref().map(|c| c.kkt_residual);
+            let holds = residual.is_some_and(|r| r <= KKT_TOLERANCE / 10.0);
+            return Ok(!holds && !self.infeasible);
+        }
         for distance in std::iter::once(VERIFY).chain(VERIFY_CLOSELY) {
             let designs = pattern(&self.centre.x, distance, false);
             let fresh = self.evaluations.all(&designs)?;
@@ -380,6 +413,10 @@ impl Region<'_> {
         }
         Ok(true)
     }
+}
+
+fn has_gradients(point: &Point) -> bool {
+    point.values.as_ref().is_ok_and(Values::has_gradients)
 }
 
 /// The design on the other side of `centre`, kept inside the unit box.

@@ -14,6 +14,7 @@ mod global;
 pub mod journal;
 pub mod local;
 pub mod problem;
+mod secants;
 pub mod solve;
 mod subproblem;
 mod surrogate;

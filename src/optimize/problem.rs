@@ -68,7 +68,7 @@ impl Variable {
 }
 
 /// One smooth piece of an objective or constraint, or of the index that it is made from.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Piece {
     /// Its value; in a problem's values scaled to order one.
     pub value: f64,
@@ -77,6 +77,17 @@ pub struct Piece {
     /// Among pieces of one index, what continues it from one design to the next (the logarithm of
     /// a hunting frequency).
     pub label: f64,
+    /// Its gradient over the variables' scaled coordinates, where it was asked for and is known.
+    pub gradient: Option<Vec<f64>>,
+}
+
+/// How much is measured of a design.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Detail {
+    /// The pieces' values.
+    Values,
+    /// Their gradients too.
+    Gradients,
 }
 
 impl Piece {
@@ -86,6 +97,7 @@ impl Piece {
             value,
             index,
             label: 0.0,
+            gradient: None,
         }
     }
 }
@@ -103,6 +115,12 @@ impl Values {
     /// Σ max f_ki.
     pub fn objective(&self) -> f64 {
         self.objectives.iter().map(|pieces| largest(pieces)).sum()
+    }
+
+    /// Whether the gradients of all pieces are known.
+    pub fn has_gradients(&self) -> bool {
+        let pieces = self.objectives.iter().flatten().chain(&self.constraints);
+        pieces.into_iter().all(|piece| piece.gradient.is_some())
     }
 
     /// max(0, max c_j).
@@ -183,7 +201,12 @@ pub trait Problem: Sync {
     /// # Errors
     ///
     /// [`Failure`] where the design has no such performance.
-    fn measure(&self, x: &[f64]) -> Result<Vec<Piece>, Failure>;
+    fn measure(&self, x: &[f64], detail: Detail) -> Result<Vec<Piece>, Failure>;
+
+    /// Whether gradients can be had.
+    fn has_gradients(&self) -> bool {
+        false
+    }
 
     /// Objective and constraints from what was measured.
     fn judge(&self, measured: &[Piece]) -> Values;
@@ -194,7 +217,7 @@ pub trait Problem: Sync {
     ///
     /// As [`Problem::measure`].
     fn evaluate(&self, x: &[f64]) -> Result<Values, Failure> {
-        Ok(self.judge(&self.measure(x)?))
+        Ok(self.judge(&self.measure(x, Detail::Values)?))
     }
 }
 

@@ -11,7 +11,7 @@ use super::{
     evaluations::{Evaluations, near},
     global,
     local::{self, Found, Status},
-    problem::{Failure, Key, Piece, Point, Problem, Values, Variable},
+    problem::{Detail, Failure, Key, Piece, Point, Problem, Values, Variable},
 };
 
 /// What solving a problem gave.
@@ -413,8 +413,12 @@ impl Problem for Violation<'_> {
         self.0.key(x)
     }
 
-    fn measure(&self, x: &[f64]) -> Measured {
-        self.0.measure(x)
+    fn measure(&self, x: &[f64], detail: Detail) -> Measured {
+        self.0.measure(x, detail)
+    }
+
+    fn has_gradients(&self) -> bool {
+        self.0.has_gradients()
     }
 
     fn judge(&self, measured: &[Piece]) -> Values {

@@ -228,24 +228,31 @@ pub(super) fn displacement(centre: &Point, point: &Point) -> DVector<f64> {
 /// than they move (two modes whose values cross), otherwise those of the values (two modes that
 /// nearly coincide).
 pub(crate) fn follow(centre: &[Piece], k: usize, other: &[Piece]) -> Option<f64> {
+    follow_piece(centre, k, other).map(|piece| piece.value)
+}
+
+/// As [`follow`], the piece itself.
+pub(super) fn follow_piece<'p>(
+    centre: &[Piece],
+    k: usize,
+    other: &'p [Piece],
+) -> Option<&'p Piece> {
     let piece = &centre[k];
-    let near = |p: &&Piece| p.index == piece.index && (p.label - piece.label).abs() < SAME;
-    let [mut own, mut others] =
-        [centre, other].map(|pieces| pieces.iter().filter(near).collect::<Vec<&Piece>>());
-    for pieces in [&mut own, &mut others] {
-        pieces.sort_by(|a, b| a.label.total_cmp(&b.label));
-    }
+    let near = |p: &Piece| p.index == piece.index && (p.label - piece.label).abs() < SAME;
+    let mut own: Vec<&Piece> = centre.iter().filter(|p| near(p)).collect();
+    let mut others: Vec<&'p Piece> = other.iter().filter(|p| near(p)).collect();
+    own.sort_by(|a, b| a.label.total_cmp(&b.label));
+    others.sort_by(|a, b| a.label.total_cmp(&b.label));
     let apart = own.windows(2).map(|w| w[1].label - w[0].label);
     let apart = apart.fold(f64::INFINITY, f64::min);
     let pairs = own.iter().zip(&others);
     let moved = pairs.map(|(a, b)| (b.label - a.label).abs());
     if own.len() != others.len() || moved.fold(0.0, f64::max) >= 0.5 * apart {
-        for pieces in [&mut own, &mut others] {
-            pieces.sort_by(|a, b| b.value.total_cmp(&a.value));
-        }
+        own.sort_by(|a, b| b.value.total_cmp(&a.value));
+        others.sort_by(|a, b| b.value.total_cmp(&a.value));
     }
     let rank = own.iter().position(|p| std::ptr::eq(*p, piece))?;
-    others.get(rank).map(|p| p.value)
+    others.get(rank).copied()
 }
 
 /// The weighted least-squares problem for one set of designs, factorised once for all pieces.

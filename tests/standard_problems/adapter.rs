@@ -5,7 +5,7 @@ use bogie::{
     optimize::{
         archive::{Archive, Measured, Silent},
         local::WIDE,
-        problem::{Failure, Piece, Problem, Scale, Values, Variable},
+        problem::{Detail, Failure, Piece, Problem, Scale, Values, Variable},
         solve::{self, solve},
     },
     units::Quantity,
@@ -97,11 +97,12 @@ fn largest(values: Vec<f64>) -> f64 {
 /// A standard problem in the library's terms.
 struct Scaled<'a> {
     standard: &'a Standard,
+    gradients: bool,
     variables: Vec<Variable>,
 }
 
 impl<'a> Scaled<'a> {
-    fn new(standard: &'a Standard) -> Self {
+    fn new(standard: &'a Standard, gradients: bool) -> Self {
         let variables = standard
             .bounds
             .iter()
@@ -115,8 +116,60 @@ impl<'a> Scaled<'a> {
             .collect();
         Self {
             standard,
+            gradients,
             variables,
         }
+    }
+
+    /// Derivatives of all pieces by one variable: of the polynomial through values at steps that
+    /// stay within the bounds, so that they are good to 1e-8.
+    fn slopes(&self, x: &[f64], i: usize) -> Vec<f64> {
+        const WIDE: f64 = 1e-3;
+        const NARROW: f64 = 1e-5;
+        let at = |step: f64| {
+            let mut x = x.to_vec();
+            x[i] += step;
+            let pieces = self.pieces(&x);
+            pieces
+                .into_iter()
+                .map(|piece| piece.value)
+                .collect::<Vec<f64>>()
+        };
+        let room = x[i].min(1.0 - x[i]);
+        if room > 2.0 * NARROW {
+            let h = (room / 2.0).min(WIDE);
+            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| at(k * h));
+            return (0..a.len())
+                .map(|k| ((a[k] - d[k]) + 8.0 * (c[k] - b[k])) / (12.0 * h))
+                .collect();
+        }
+        let h = if x[i] < 0.5 { WIDE } else { -WIDE };
+        let [a, b, c, d, e] = [0.0, 1.0, 2.0, 3.0, 4.0].map(|k| at(k * h));
+        (0..a.len())
+            .map(|k| {
+                let sum = -25.0 * a[k] + 48.0 * b[k] - 36.0 * c[k] + 16.0 * d[k] - 3.0 * e[k];
+                sum / (12.0 * h)
+            })
+            .collect()
+    }
+
+    /// Objectives are divided by 1 + |f*|: the library expects values of order one.
+    fn pieces(&self, x: &[f64]) -> Vec<Piece> {
+        let pairs = self.variables.iter().zip(x);
+        // As a variable's value, without its limits.
+        let x: Vec<f64> = pairs
+            .map(|(v, x)| v.bounds[0] + x * (v.bounds[1] - v.bounds[0]))
+            .collect();
+        let scale = 1.0 + self.standard.optimum.abs();
+        let objective = (self.standard.objective)(&x).into_iter().enumerate();
+        let objective = objective.map(|(i, f)| Piece::single(i, f / scale));
+        let constraints = (self.standard.constraints)(&x).into_iter().enumerate();
+        let one = self.standard.one_index;
+        let constraints = constraints.map(|(j, value)| Piece {
+            label: if one { j as f64 } else { 0.0 },
+            ..Piece::single(if one { FIRST } else { FIRST + j }, value)
+        });
+        objective.chain(constraints).collect()
     }
 
     fn values(&self, scaled: &[f64]) -> Vec<f64> {
@@ -134,40 +187,32 @@ impl Problem for Scaled<'_> {
         format!("piece {index}")
     }
 
-    /// Objectives are divided by 1 + |f*|: the library expects values of order one.
-    fn measure(&self, x: &[f64]) -> Measured {
+    fn has_gradients(&self) -> bool {
+        self.gradients
+    }
+
+    fn measure(&self, x: &[f64], detail: Detail) -> Measured {
         assert!(
             x.iter().all(|x| (0.0..=1.0).contains(x)),
             "{}: outside the bounds",
             self.standard.name
         );
-        let x = self.values(x);
-        if (self.standard.fails)(&x) {
+        if (self.standard.fails)(&self.values(x)) {
             return Err(Failure::Unstable);
         }
-        let scale = 1.0 + self.standard.optimum.abs();
-        let objective = (self.standard.objective)(&x).into_iter().enumerate();
-        let objective = objective.map(|(i, f)| Piece::single(i, f / scale));
-        let constraints = (self.standard.constraints)(&x).into_iter().enumerate();
-        let constraints = constraints.map(|(j, value)| Piece {
-            value,
-            index: if self.standard.one_index {
-                FIRST
-            } else {
-                FIRST + j
-            },
-            label: if self.standard.one_index {
-                j as f64
-            } else {
-                0.0
-            },
-        });
-        Ok(objective.chain(constraints).collect())
+        let mut pieces = self.pieces(x);
+        if detail == Detail::Gradients {
+            let slopes: Vec<Vec<f64>> = (0..x.len()).map(|i| self.slopes(x, i)).collect();
+            for (k, piece) in pieces.iter_mut().enumerate() {
+                piece.gradient = Some(slopes.iter().map(|by| by[k]).collect());
+            }
+        }
+        Ok(pieces)
     }
 
     fn judge(&self, measured: &[Piece]) -> Values {
         let (objective, mut constraints): (Vec<Piece>, Vec<Piece>) =
-            measured.iter().partition(|p| p.index < FIRST);
+            measured.iter().cloned().partition(|p| p.index < FIRST);
         if self.standard.one_index {
             constraints.sort_by(|a, b| b.value.total_cmp(&a.value));
         }
@@ -202,8 +247,8 @@ pub struct Run {
 }
 
 /// Solves a problem; the failure of its last evaluation if none succeeded.
-pub fn solve_from(problem: &Standard, start: Start) -> Result<Run, String> {
-    let scaled = Scaled::new(problem);
+pub fn solve_from(problem: &Standard, start: Start, gradients: bool) -> Result<Run, String> {
+    let scaled = Scaled::new(problem, gradients);
     let near: Vec<f64> = scaled
         .variables
         .iter()

@@ -79,7 +79,7 @@ fn relative_error(problem: &Standard, run: &Run) -> f64 {
 }
 
 /// Solves every problem from one kind of start, prints a table and demands that all are solved.
-fn solve_all(title: &str, start: Start) {
+fn solve_all(title: &str, start: Start, gradients: bool) {
     let mut table = format!(
         "{title}\n{:<26}{:>3}{:>4}{:>7}{:>10}{:>10}{:>10}  {:<11}\n",
         "problem", "n", "c", "eval.", "error f", "violation", "residual", "status"
@@ -88,7 +88,7 @@ fn solve_all(title: &str, start: Start) {
     for problem in all() {
         let (n, c) = problem.size();
         let _ = write!(table, "{:<26}{n:>3}{c:>4}", problem.name);
-        let fault = match solve_from(problem, start) {
+        let fault = match solve_from(problem, start, gradients) {
             Ok(run) => {
                 let fault = fault(problem, start, &run);
                 let _ = write!(
@@ -121,12 +121,26 @@ fn solve_all(title: &str, start: Start) {
 
 #[test]
 fn from_the_published_starts() {
-    solve_all("From the published starts", Start::Published);
+    solve_all("From the published starts", Start::Published, false);
+}
+
+#[test]
+fn from_the_published_starts_with_gradients() {
+    solve_all(
+        "From the published starts, with gradients",
+        Start::Published,
+        true,
+    );
 }
 
 #[test]
 fn from_anywhere() {
-    solve_all("From anywhere", Start::Anywhere);
+    solve_all("From anywhere", Start::Anywhere, false);
+}
+
+#[test]
+fn from_anywhere_with_gradients() {
+    solve_all("From anywhere, with gradients", Start::Anywhere, true);
 }
 
 /// Every x* lies within the bounds, satisfies the constraints and has f* as its value.

@@ -100,11 +100,22 @@ impl Pairs {
         self.change[l] = self.change[other];
     }
 
-    /// Whether the right vectors of two pairs, of length one, are nearly the same.
-    pub fn alike((a, i): (&Self, usize), (b, j): (&Self, usize)) -> bool {
+    /// Whether the right vectors of two pairs are nearly the same.
+    pub fn alike(a: (&Self, usize), b: (&Self, usize)) -> bool {
+        Self::overlap(a, b) > ALIKE
+    }
+
+    /// Whether the right vector of one pair can have become that of another on the way from a speed
+    /// to the next.
+    pub fn related(a: (&Self, usize), b: (&Self, usize)) -> bool {
+        Self::overlap(a, b) > RELATED
+    }
+
+    /// |x̄ᵀ x′| of right vectors, which are of length one.
+    fn overlap((a, i): (&Self, usize), (b, j): (&Self, usize)) -> f64 {
         let products = a.x.iter().zip(&b.x);
         let product: Complex<f64> = products.map(|(a, b)| a.lane(i).conj() * b.lane(j)).sum();
-        product.norm() > ALIKE
+        product.norm()
     }
 
     /// The eigenvalue in lane `l`.
@@ -140,6 +151,9 @@ pub struct Refiner {
 pub(super) const SETTLED: f64 = 1e-6;
 /// |x̄ᵀ x′| above which two vectors of length one are nearly the same.
 const ALIKE: f64 = 0.98;
+/// And above which they have something in common: those of different modes are nearly orthogonal
+/// where these are not about to meet.
+const RELATED: f64 = 0.7;
 /// Steps allowed.
 const STEPS: usize = 6;
 

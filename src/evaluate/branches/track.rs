@@ -4,7 +4,7 @@ use nalgebra::Complex;
 
 use super::{
     events::{Event, Sought, find},
-    pairs::{Known, Refiner, SETTLED},
+    pairs::{Known, Pairs, Refiner, SETTLED},
     sector::modes_below,
     state::{STRONG, State},
 };
@@ -139,6 +139,7 @@ impl<'m> Branches<'m> {
     /// those that were not followed are followed back to the start.
     pub fn complete(&mut self, walked: Walked, search: &mut Search) -> Option<Vec<Known>> {
         let speed = walked.0.speed();
+        let alive = walked.0.alive;
         let mut modes = self.settled(walked.0);
         if !self.all(&modes, speed) {
             let others = self.others(&modes, speed)?;
@@ -147,7 +148,14 @@ impl<'m> Branches<'m> {
                 return None;
             }
             let back = self.start.speed();
-            self.follow(others, back, search, |_, _| false)?;
+            let back = self.follow(others, back, search, |_, _| false)?;
+            // Where one comes back to a mode that went all the way itself, the two were mixed up.
+            let own = self.start.living().filter(|l| alive[*l]);
+            let own: Vec<Complex<f64>> = own.map(|l| self.start.known(l).s).collect();
+            let is_own = |s: Complex<f64>| own.iter().any(|o| (o - s).norm() < SAME * s.norm());
+            if self.settled(back).iter().any(|known| is_own(known.s)) {
+                return None;
+            }
         }
         Some(modes)
     }
@@ -238,16 +246,31 @@ impl<'m> Branches<'m> {
             (next.pairs.s.re[l], next.pairs.s.im[l]) = (s.re, s.im);
         }
         next.pairs.speed = [speed; LANES];
+        // What is little damped does not become unworthy in a single step.
+        let was_strong = |l: usize| damping_ratio(now.known(l).s) > STRONG;
+        let leaves = |state: &State| {
+            let mut living = state.living();
+            living.any(|l| gone(state.known(l).s) && !was_strong(l))
+        };
+        if leaves(&next) {
+            return None;
+        }
         next.bury(|state, l| gone(state.known(l).s));
         let expected = next.pairs.s;
         self.refiner.settle(&mut next.pairs, now.used(), LOOSE);
-        let settled = |state: &State, l: usize| state.pairs.change[l] < LOOSE;
+        // A mode is itself as long as its vector is.
+        let kept = |state: &State, l: usize| {
+            let settled = state.pairs.change[l] < LOOSE;
+            settled && Pairs::related((&now.pairs, l), (&state.pairs, l))
+        };
+        if leaves(&next) {
+            return None;
+        }
         next.bury(|state, l| {
-            let strongly = damping_ratio(now.known(l).s) > STRONG;
-            let lost = || !settled(state, l) || state.repeats(l);
-            gone(state.known(l).s) || strongly && lost()
+            let lost = || !kept(state, l) || state.repeats(l);
+            gone(state.known(l).s) || was_strong(l) && lost()
         });
-        let fine = next.living().all(|l| settled(&next, l) && !next.repeats(l));
+        let fine = next.living().all(|l| kept(&next, l) && !next.repeats(l));
         let surprise = next.living().map(|l| {
             let s = next.known(l).s;
             let allowed = (share * damping_ratio(s).abs()).max(least);

@@ -48,6 +48,11 @@ impl<'a> Constants<'a> {
         self.stencils.is_empty()
     }
 
+    /// Which.
+    pub fn parameters(&self) -> impl Iterator<Item = Parameter> + '_ {
+        self.stencils.iter().map(|(constant, _)| *constant)
+    }
+
     /// The case.
     pub fn case(&self) -> &Case {
         self.case

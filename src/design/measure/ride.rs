@@ -1,0 +1,101 @@
+//! Ride and strokes.
+
+use super::{BANDS, Models, no_ride, pieces};
+use crate::{
+    evaluate::{
+        limits::PEAK,
+        passenger_ride::PassengerRide,
+        ride::{LateralRide, VerticalRide, average},
+    },
+    index::Index,
+    optimize::problem::{Failure, Piece},
+};
+
+/// A ride and its derivatives by each constant.
+type Graded<T> = (T, Vec<T>);
+pub(super) type Lateral = Graded<LateralRide>;
+pub(super) type Vertical = Graded<VerticalRide>;
+
+/// Pieces of what is made of a ride; linear in its values, so that it takes derivatives too.
+fn made_of<T>(
+    (ride, derivatives): &Graded<T>,
+    graded: bool,
+    of: impl Fn(&T) -> Vec<f64>,
+) -> Vec<Piece> {
+    let by: Option<Vec<Vec<f64>>> = graded.then(|| derivatives.iter().map(&of).collect());
+    pieces(&of(ride), by.as_deref())
+}
+
+fn peaks(rms: &[f64]) -> Vec<f64> {
+    rms.iter().map(|value| PEAK * value).collect()
+}
+
+impl Models<'_> {
+    pub(super) fn lateral_ride(&mut self, index: Index) -> Result<Vec<Piece>, Failure> {
+        let (case, graded) = (self.case, self.constants.is_some());
+        let failed = |reason| no_ride(reason, Failure::Unstable);
+        if index == Index::LateralIsoRatio {
+            let (model, tangents, poles) = self.with_tangents()?;
+            let passengers = PassengerRide::lateral_with_derivatives(model, case, poles, tangents);
+            return passengers
+                .map(|(now, by)| iso_ratios(&now, graded.then_some(&by)))
+                .map_err(failed);
+        }
+        if self.lateral_ride.is_none() {
+            let (model, tangents, poles) = self.with_tangents()?;
+            let ride = LateralRide::with_derivatives(model, case, poles, tangents);
+            self.lateral_ride = Some(ride.map_err(failed)?);
+        }
+        let ride = self.lateral_ride.as_ref().ok_or(Failure::Integration)?;
+        Ok(made_of(ride, graded, |ride| match index {
+            Index::LateralAcceleration => vec![average(&ride.acceleration)],
+            Index::SecondaryLateralStroke => peaks(&ride.secondary_stroke),
+            Index::PrimaryLateralStroke => peaks(&ride.primary_stroke),
+            Index::PrimaryLongitudinalStroke => peaks(&ride.longitudinal_stroke),
+            _ => peaks(&ride.excursion),
+        }))
+    }
+
+    pub(super) fn vertical_ride(&mut self, index: Index) -> Result<Vec<Piece>, Failure> {
+        let (case, graded) = (self.case, self.constants.is_some());
+        let failed = |reason| no_ride(reason, Failure::Diverging);
+        if index == Index::VerticalIsoRatio {
+            let (model, poles, tangents) = self.vertical()?;
+            let passengers = PassengerRide::vertical_with_derivatives(model, case, poles, tangents);
+            return passengers
+                .map(|(now, by)| iso_ratios(&now, graded.then_some(&by)))
+                .map_err(failed);
+        }
+        if self.vertical_ride.is_none() {
+            let (model, poles, tangents) = self.vertical()?;
+            let ride = VerticalRide::with_derivatives(model, case, poles, tangents);
+            self.vertical_ride = Some(ride.map_err(failed)?);
+        }
+        let ride = self.vertical_ride.as_ref().ok_or(Failure::Integration)?;
+        let load = case.vehicle.wheel_load();
+        Ok(made_of(ride, graded, |ride| match index {
+            Index::VerticalAcceleration => vec![average(&ride.acceleration)],
+            Index::SecondaryVerticalStroke => peaks(&ride.secondary_stroke),
+            Index::PrimaryVerticalStroke => peaks(&ride.primary_stroke),
+            _ => peaks(&ride.wheel_load.map(|rms| rms / load)),
+        }))
+    }
+}
+
+/// Ratios of band accelerations to the ISO boundary; `by` has the derivatives of the accelerations by
+/// each constant, point by point and band by band.
+fn iso_ratios(passengers: &[PassengerRide; 3], by: Option<&Vec<[Vec<f64>; 3]>>) -> Vec<Piece> {
+    let mut ratios = Vec::new();
+    for (point, passenger) in passengers.iter().enumerate() {
+        for (band, ride) in passenger.bands.iter().enumerate() {
+            if let Some(boundary) = ride.boundary {
+                let slopes = by.map(|by| by.iter().map(|d| d[point][band] / boundary).collect());
+                ratios.push(Piece {
+                    gradient: slopes,
+                    ..Piece::single(BANDS * point + band, ride.acceleration / boundary)
+                });
+            }
+        }
+    }
+    ratios
+}

@@ -1,0 +1,92 @@
+//! From derivatives by the constants of Table 4.1.1 to gradients over a study's variables.
+
+use super::Study;
+use crate::{optimize::problem::Scale, parameter::Parameter};
+
+/// How the constants of a case follow the variables at a design.
+pub(super) struct Chain {
+    /// Constants that move.
+    pub constants: Vec<Parameter>,
+    /// Derivative of each by the scaled coordinate of each parameter.
+    by_parameters: Vec<Vec<f64>>,
+    /// Number of parameters.
+    count: usize,
+    /// Derivative of the lifted speed by its own coordinate, if there is one, m/s.
+    speed: Option<f64>,
+}
+
+/// Step in the derivative of the polynomial through five values, as a share of the value or, on a
+/// linear scale, of the range. Constants are powers and products of the parameters: it leaves 1e-12.
+const STEP: f64 = 1e-3;
+/// A relative change over the whole range below this is rounding.
+const ROUNDING: f64 = 1e-10;
+
+impl Chain {
+    /// At scaled coordinates `x`, in a condition.
+    pub fn new(study: &Study, x: &[f64], condition: usize) -> Self {
+        let count = study.parameters.len();
+        let pairs = study.variables.iter().zip(x).take(count);
+        let values: Vec<f64> = pairs.map(|(variable, x)| variable.value(*x)).collect();
+        let mut by_parameters = vec![vec![0.0; count]; Parameter::TEN.len()];
+        for (i, variable) in study.variables.iter().take(count).enumerate() {
+            let [low, high] = variable.bounds;
+            let step = STEP
+                * match variable.scale {
+                    Scale::Logarithmic => values[i],
+                    Scale::Linear => high - low,
+                };
+            if step == 0.0 {
+                continue;
+            }
+            let at = |k: f64| {
+                let mut moved = values.clone();
+                moved[i] += k * step;
+                let case = study.in_condition(&study.with_values(&moved), condition);
+                Parameter::TEN.map(|constant| constant.get(&case))
+            };
+            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(at);
+            let slope = variable.slope(values[i]) / (12.0 * step);
+            for (k, by) in by_parameters.iter_mut().enumerate() {
+                let change = ((a[k] - d[k]) + 8.0 * (c[k] - b[k])) * slope;
+                if change.abs() > ROUNDING * a[k].abs() {
+                    by[i] = change;
+                }
+            }
+        }
+        let moves = |k: &usize| by_parameters[*k].iter().any(|slope| *slope != 0.0);
+        let moving: Vec<usize> = (0..Parameter::TEN.len()).filter(moves).collect();
+        let speed = study.is_lifted.then(|| {
+            let variable = &study.variables[count];
+            variable.slope(variable.value(x[count]))
+        });
+        Self {
+            constants: moving.iter().map(|k| Parameter::TEN[*k]).collect(),
+            by_parameters: moving.iter().map(|k| by_parameters[*k].clone()).collect(),
+            count,
+            speed,
+        }
+    }
+
+    /// Gradient over the variables of what has such derivatives by the constants, and behind them
+    /// perhaps one by a speed, which is the lifted one or is not.
+    pub fn gradient(&self, derivatives: &[f64], is_lifted: bool) -> Vec<f64> {
+        let mut gradient = vec![0.0; self.count];
+        for (derivative, by) in derivatives.iter().zip(&self.by_parameters) {
+            for (sum, slope) in gradient.iter_mut().zip(by) {
+                *sum += derivative * slope;
+            }
+        }
+        if let Some(slope) = self.speed {
+            let by_speed = derivatives.get(self.constants.len()).filter(|_| is_lifted);
+            gradient.push(by_speed.map_or(0.0, |derivative| derivative * slope));
+        }
+        gradient
+    }
+
+    /// Gradient of the lifted speed itself.
+    pub fn of_speed(&self) -> Vec<f64> {
+        let mut gradient = vec![0.0; self.count];
+        gradient.extend(self.speed);
+        gradient
+    }
+}

@@ -1,0 +1,174 @@
+//! Surrogates from gradients: exact to first order at the centre, with the curvature that the
+//! gradients at other designs show.
+//!
+//! ```math
+//! m(d) = v + gᵀd + ½ dᵀH d,   min_H Σ_p |H d_p − (g_p − g)|²/σ_p² + ‖H‖²/τ²,   σ_p = ν + |d_p|²
+//! ```
+//!
+//! Every design with a gradient is a secant condition, weighted by what it can be relied on: third
+//! derivatives make it wrong by the square of the distance, rounding by ν. In directions that no
+//! design shows, the least curvature is taken, as in [`super::surrogate`]. All conditions are kept
+//! at once, so that no order of updates matters.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{
+    problem::{Piece, Point, Values},
+    surrogate::{Quadratic, Surrogate, displacement, follow_piece},
+};
+
+/// ν: rounding of gradients, in scaled units.
+const NOISE: f64 = 1e-6;
+/// τ: size of second derivatives that is nothing unusual.
+const CURVATURE: f64 = 100.0;
+/// Designs used, per variable.
+const PLENTY: usize = 4;
+/// Designs farther away than this say nothing.
+const FARTHEST: f64 = 0.5;
+
+impl Surrogate {
+    /// From the gradients of the pieces of `centre`, which must be known, and of what they have
+    /// become at the designs `around` it, which come with their distances, the nearest first. `None`
+    /// if a gradient at the centre is missing.
+    pub fn from_gradients(centre: &Point, around: &[(f64, Point)]) -> Option<Self> {
+        let values = centre.values.as_ref().ok()?;
+        let n = centre.x.len();
+        let known: Vec<(DVector<f64>, &Values)> = around
+            .iter()
+            .take_while(|(distance, _)| *distance <= FARTHEST)
+            .filter_map(|(_, p)| Some((displacement(centre, p), p.values.as_ref().ok()?)))
+            .filter(|(_, values)| values.has_gradients())
+            .take(PLENTY * n)
+            .collect();
+        let of_piece = |pieces: &[Piece], k: usize, there: &[Option<&[Piece]>]| {
+            let gradient = DVector::from_column_slice(pieces[k].gradient.as_ref()?);
+            let mut secants = Secants::new(n);
+            for ((d, _), others) in known.iter().zip(there) {
+                let other = others.and_then(|others| follow_piece(pieces, k, others));
+                if let Some(other) = other.and_then(|piece| piece.gradient.as_ref()) {
+                    secants.add(d, &(DVector::from_column_slice(other) - &gradient));
+                }
+            }
+            Some(Quadratic {
+                value: pieces[k].value,
+                hessian: secants.hessian()?,
+                gradient,
+            })
+        };
+        let mut objectives = Vec::new();
+        for (group, pieces) in values.objectives.iter().enumerate() {
+            let there = known
+                .iter()
+                .map(|(_, v)| v.objectives.get(group).map(Vec::as_slice));
+            let there: Vec<_> = there.collect();
+            let all = (0..pieces.len()).map(|k| of_piece(pieces, k, &there));
+            objectives.push(all.collect::<Option<Vec<_>>>()?);
+        }
+        let pieces = &values.constraints;
+        let there = known.iter().map(|(_, v)| Some(v.constraints.as_slice()));
+        let there: Vec<_> = there.collect();
+        let constraints = (0..pieces.len()).map(|k| of_piece(pieces, k, &there));
+        Some(Self {
+            objectives,
+            constraints: constraints.collect::<Option<Vec<_>>>()?,
+        })
+    }
+}
+
+/// The least-squares problem for the curvatures of one piece.
+struct Secants {
+    n: usize,
+    normal: DMatrix<f64>,
+    right: DVector<f64>,
+}
+
+impl Secants {
+    fn new(n: usize) -> Self {
+        let count = n * (n + 1) / 2;
+        let mut normal = DMatrix::identity(count, count);
+        for i in 0..n {
+            for j in 0..=i {
+                // Off the diagonal an entry stands for two of H.
+                let times = if i == j { 1.0 } else { 2.0 };
+                let at = position(i, j);
+                normal[(at, at)] = times / (CURVATURE * CURVATURE);
+            }
+        }
+        Self {
+            n,
+            normal,
+            right: DVector::zeros(count),
+        }
+    }
+
+    /// H d = change.
+    fn add(&mut self, d: &DVector<f64>, change: &DVector<f64>) {
+        let weight = 1.0 / (NOISE + d.norm_squared()).powi(2);
+        for i in 0..self.n {
+            for j in 0..self.n {
+                let row = position(i, j);
+                self.right[row] += weight * d[j] * change[i];
+                for k in 0..self.n {
+                    self.normal[(row, position(i, k))] += weight * d[j] * d[k];
+                }
+            }
+        }
+    }
+
+    fn hessian(self) -> Option<DMatrix<f64>> {
+        let h = self.normal.cholesky()?.solve(&self.right);
+        Some(DMatrix::from_fn(self.n, self.n, |i, j| h[position(i, j)]))
+    }
+}
+
+/// Where the entry (i, j) of a symmetric matrix is kept.
+fn position(i: usize, j: usize) -> usize {
+    let (low, high) = (i.min(j), i.max(j));
+    high * (high + 1) / 2 + low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn point(x: &[f64]) -> Point {
+        let value = 1.0 + 2.0 * x[0] - x[1] * x[2] + 3.0 * x[1] * x[1];
+        let gradient = vec![2.0, 6.0 * x[1] - x[2], -x[1]];
+        Point {
+            x: x.to_vec(),
+            values: Ok(Values {
+                objectives: vec![vec![Piece {
+                    gradient: Some(gradient),
+                    ..Piece::single(0, value)
+                }]],
+                constraints: vec![],
+            }),
+        }
+    }
+
+    /// One gradient elsewhere shows the curvature along the way to it, and nothing is made up about
+    /// the other directions; three show all of it.
+    #[test]
+    fn curvature_is_what_gradients_show() {
+        let centre = point(&[0.5, 0.4, 0.3]);
+        let at = |d: [f64; 3]| (0.1, point(&[0.5 + d[0], 0.4 + d[1], 0.3 + d[2]]));
+        let h = |around: &[(f64, Point)]| {
+            Surrogate::from_gradients(&centre, around)
+                .unwrap()
+                .objectives[0][0]
+                .hessian
+                .clone()
+        };
+        assert!(h(&[]).amax() == 0.0);
+        let one = h(&[at([0.0, 0.1, 0.0])]);
+        // 1e-4: the prior gives way by (σ/τ|d|)².
+        assert!((one[(1, 1)] - 6.0).abs() < 1e-4 && (one[(1, 2)] + 1.0).abs() < 1e-4);
+        assert!(one[(2, 2)].abs() < 1e-9 && one[(0, 0)].abs() < 1e-9);
+        let all = h(&[
+            at([0.1, 0.0, 0.0]),
+            at([0.0, 0.1, 0.0]),
+            at([0.0, 0.0, 0.1]),
+        ]);
+        assert!((all[(1, 1)] - 6.0).abs() < 1e-4 && all[(2, 2)].abs() < 1e-4);
+    }
+}
