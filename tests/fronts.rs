@@ -127,3 +127,25 @@ fn three_indices() {
     );
     assert!(values.len() >= 4, "{}", values.len());
 }
+
+/// The vertical springs carry the carbody against roll, so that vertical ride has a little to do with
+/// lateral: no point of the front gives much of one for hardly anything of another.
+#[test]
+fn no_point_is_a_bad_bargain() {
+    let (_, values) = front(
+        "secondary_vertical_frequency = [\"0.7 Hz\", \"1.5 Hz\"]\n\
+         secondary_vertical_damping_ratio = [0.1, 0.6]\n\
+         [pareto]\nindices = [\"secondary_lateral_stroke\", \"lateral_acceleration\", \
+         \"vertical_acceleration\"]\npoints = 8\n",
+    );
+    assert!(values.len() >= 4, "{}", values.len());
+    let better = |a: &[f64], b: &[f64]| {
+        let pairs = a.iter().zip(b);
+        pairs.map(|(a, b)| (b / a).ln()).fold(0.0, f64::max)
+    };
+    for a in &values {
+        for b in &values {
+            assert!(better(a, b) <= 20.0 * better(b, a), "{a:?} {b:?}");
+        }
+    }
+}

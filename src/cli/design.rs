@@ -70,7 +70,14 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
         },
     )?;
     if let Some(page) = &call.report {
-        report::optimized(&named, &result, matters.as_ref(), call, page)?;
+        let whole = archive.stopped().is_none();
+        let front = report::front(spec, &archive);
+        progress.finish();
+        if whole {
+            tell(&archive);
+        }
+        let (matters, front) = (matters.as_ref(), front.as_ref());
+        report::optimized(&named, &result, matters, front, call, page)?;
     }
     Ok(if result.met() {
         Done::Complete

@@ -12,6 +12,7 @@ use bogie::{
     export::file,
     optimize::archive::Archive,
     report::{Report, charts, page},
+    spec::Spec,
 };
 
 use super::{
@@ -28,13 +29,18 @@ pub fn report(call: &arguments::Report) -> Result<Done, Failure> {
     ready(&call.page)?;
     let result = DesignResult::as_given(&named.spec).map_err(failed)?;
     let command = format!("bogie report {0}.toml {0}.html", named.name);
+    let progress = Line::new();
+    let archive = Archive::new(&progress).with_interrupt(interrupt::flag());
+    let front = front(&named.spec, &archive);
+    progress.finish();
+    tell(&archive);
     let made = Made {
         named: &named,
         result: &result,
         designed: false,
         matters: None,
+        front: front.as_ref(),
         command,
-        budget: None,
     };
     made.write(&call.page)?;
     Ok(Done::Complete)
@@ -45,11 +51,14 @@ pub fn optimized(
     named: &Named,
     result: &DesignResult,
     matters: Option<&Sensitivity>,
+    front: Option<&Front>,
     call: &arguments::Optimize,
     page: &Path,
 ) -> Result<(), Failure> {
-    let budget = call.search.budget;
-    let limit = budget.map_or_else(String::new, |n| format!(" --budget {n}"));
+    let limit = call
+        .search
+        .budget
+        .map_or_else(String::new, |n| format!(" --budget {n}"));
     let command = format!(
         "bogie optimize {0}.toml{limit} --report {0}.html",
         named.name
@@ -59,8 +68,8 @@ pub fn optimized(
         result,
         designed: true,
         matters,
+        front,
         command,
-        budget,
     };
     made.write(page)
 }
@@ -88,8 +97,8 @@ struct Made<'a> {
     result: &'a DesignResult,
     designed: bool,
     matters: Option<&'a Sensitivity>,
+    front: Option<&'a Front>,
     command: String,
-    budget: Option<u64>,
 }
 
 impl Made<'_> {
@@ -102,7 +111,6 @@ impl Made<'_> {
             warnings: doubts,
         } = self.named;
         let result = self.result;
-        let front = self.front();
         let progress = Line::charts(charts::entries(&result.case).len());
         let figures = charts::figures(spec, name, &result.case, &progress, |entry| {
             progress.chart(&entry.number());
@@ -118,7 +126,7 @@ impl Made<'_> {
             result,
             designed: self.designed,
             matters: self.matters,
-            front: front.as_ref(),
+            front: self.front,
             figures: &figures,
             warnings: &all,
         });
@@ -131,28 +139,14 @@ impl Made<'_> {
         eprintln!("wrote {}", path.display());
         Ok(())
     }
+}
 
-    /// The front, where the spec asks for one and something is open to trace it with.
-    fn front(&self) -> Option<Front> {
-        let Named { spec, source, .. } = self.named;
-        let asked = source
-            .parse::<toml::Table>()
-            .is_ok_and(|table| table.contains_key("pareto"));
-        if !asked || spec.design.parameters.is_empty() {
-            return None;
-        }
-        let progress = Line::new();
-        let budget = self
-            .budget
-            .map(|n| usize::try_from(n).unwrap_or(usize::MAX));
-        let archive = Archive::new(&progress)
-            .with_budget(budget)
-            .with_interrupt(interrupt::flag());
-        let front = pareto::pareto(spec, &archive);
-        progress.finish();
-        tell(&archive);
-        front
-            .inspect_err(|error| eprintln!("warning: no front: {error}"))
-            .ok()
+/// The front, where the spec asks for one and something is open to trace it with.
+pub fn front(spec: &Spec, archive: &Archive) -> Option<Front> {
+    if !spec.front.asked || spec.design.parameters.is_empty() {
+        return None;
     }
+    pareto::pareto(spec, archive)
+        .inspect_err(|error| eprintln!("warning: no front: {error}"))
+        .ok()
 }

@@ -206,8 +206,10 @@ fn single_objective(study: &Study, values: &Values) -> Option<(Index, f64)> {
     same.then_some((term.index, value))
 }
 
+/// Names of the active pieces, each once with all of its conditions, as in "critical speed
+/// (nominal, worn)".
 fn active(study: &Study, values: &Values) -> Vec<String> {
-    let mut active = Vec::new();
+    let mut active: Vec<(String, Vec<Option<&str>>)> = Vec::new();
     let objectives = values.objectives.iter().flat_map(|pieces| {
         let largest = crate::optimize::problem::largest(pieces);
         let several = pieces.len() > 1;
@@ -217,12 +219,22 @@ fn active(study: &Study, values: &Values) -> Vec<String> {
     });
     let constraints = values.constraints.iter().filter(|p| p.value > -ACTIVE);
     for piece in objectives.chain(constraints) {
-        let name = study.piece_name(piece.index);
-        if !active.contains(&name) {
-            active.push(name);
+        let name = study.piece_words(piece.index);
+        let condition = study.condition_name(study.terms()[study.term_of(piece.index)].condition);
+        match active.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, conditions)) if conditions.contains(&condition) => {}
+            Some((_, conditions)) => conditions.push(condition),
+            None => active.push((name, vec![condition])),
         }
     }
-    active
+    let written = |(name, conditions): (String, Vec<Option<&str>>)| {
+        if conditions == [None] {
+            return name;
+        }
+        let conditions = conditions.into_iter().map(|c| c.unwrap_or("nominal"));
+        format!("{name} ({})", conditions.collect::<Vec<_>>().join(", "))
+    };
+    active.into_iter().map(written).collect()
 }
 
 fn prices(study: &Study, x: &[f64], values: &Values, certificate: &Certificate) -> Vec<Price> {

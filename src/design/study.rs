@@ -281,6 +281,18 @@ impl Study {
         self.conditions[condition].as_ref().map(|c| c.name.as_str())
     }
 
+    /// What a piece is called, whatever its condition.
+    pub fn piece_words(&self, index: usize) -> String {
+        let term = &self.terms[self.term_of(index)];
+        let name = term.index.words();
+        let piece = piece_name(term.wanted, index % PIECES);
+        match term.index {
+            _ if piece.is_empty() => name.into(),
+            Index::DegreeCurve | Index::FlangeLimitedCurve | Index::SlipLimitedCurve => piece,
+            _ => format!("{name}, {piece}"),
+        }
+    }
+
     /// The nominal case of the design at scaled coordinates `x`.
     pub fn design(&self, x: &[f64]) -> Case {
         let pairs = self.variables.iter().zip(x);
@@ -438,15 +450,8 @@ impl Problem for Study {
     }
 
     fn piece_name(&self, index: usize) -> String {
+        let name = self.piece_words(index);
         let term = &self.terms[self.term_of(index)];
-        let mut name = term.index.words().to_owned();
-        let piece = piece_name(term.wanted, index % PIECES);
-        if !piece.is_empty() {
-            name = match term.index {
-                Index::DegreeCurve | Index::FlangeLimitedCurve | Index::SlipLimitedCurve => piece,
-                _ => format!("{name}, {piece}"),
-            };
-        }
         match self.condition_name(term.condition) {
             Some(condition) => format!("{name} ({condition})"),
             None => name,

@@ -75,7 +75,7 @@ pub(super) fn stationary(poles: &Poles) -> Result<(), NoRide> {
 
 /// Integrals over panels between `edges`, Hz, of the densities of a response, of as many functions as
 /// `further` says that `more` makes of them, and of their derivatives by design constants.
-pub(super) fn mean_squares(
+pub(crate) fn mean_squares(
     mut response: Response<'_>,
     edges: &[f64],
     further: usize,

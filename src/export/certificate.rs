@@ -3,7 +3,7 @@
 
 use super::{
     design_text::{status, trade_off, value},
-    number::{both, in_unit, significant},
+    number::{both, in_unit, signed_percent, significant},
     sheet::Sheet,
 };
 use crate::{
@@ -82,7 +82,8 @@ fn price_line(explained: &Explained, price: &Price) -> String {
         let (step, size) = match (unit.label, price.index.scale()) {
             ("", Scale::Linear) => ("0.01".into(), 0.01),
             ("", Scale::Logarithmic) => ("0.1".into(), 0.1),
-            ("in" | "deg", _) => (format!("0.1 {}", unit.label), 0.1 * unit.factor),
+            ("in" | "deg" | "m/s^2", _) => (format!("0.1 {}", unit.label), 0.1 * unit.factor),
+            ("g", _) => ("0.01 g".into(), 0.01 * unit.factor),
             (label, _) => (format!("1 {label}"), unit.factor),
         };
         let cost = match explained.objective {
@@ -204,7 +205,7 @@ pub(crate) fn joint(sheet: &mut Sheet, result: &DesignResult) {
             let [before_si, before_us] = cell(index, before);
             let [after_si, after_us] = cell(index, after);
             let change = match (before, after) {
-                (Ok(b), Ok(a)) => format!("{:+.2} %", 100.0 * (a / b - 1.0)),
+                (Ok(b), Ok(a)) => signed_percent(100.0 * (a / b - 1.0)),
                 _ => String::new(),
             };
             vec![

@@ -3,7 +3,7 @@
 use super::{
     certificate::{certificate, conflict, joint, margins},
     evaluation_text::{constraint_table, stability, title},
-    number::{both, significant},
+    number::{both, signed_percent, significant},
     sheet::Sheet,
 };
 use crate::{
@@ -145,7 +145,7 @@ pub(crate) fn trade_off(sheet: &mut Sheet, stage: &StageResult) {
                 None => "",
             };
             let slope = match (explained.kkt_residual, explained.gain_per_share(chosen)) {
-                (Some(_), gain) => format!("1 % more: {gain:+.2} %"),
+                (Some(_), gain) => format!("1 % more: {}", signed_percent(gain)),
                 (None, _) => String::new(),
             };
             vec![

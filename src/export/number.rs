@@ -43,9 +43,25 @@ pub fn both(quantity: Quantity, si: f64) -> [String; 2] {
     [in_unit(si_unit, si, 4), us]
 }
 
+/// A change in percent with its sign, two decimals; none has no sign.
+pub fn signed_percent(percent: f64) -> String {
+    let text = format!("{percent:+.2} %");
+    match text.as_str() {
+        "+0.00 %" | "-0.00 %" => "0.00 %".into(),
+        _ => text,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn signs() {
+        for (x, text) in [(1.234, "+1.23 %"), (-0.006, "-0.01 %"), (-0.004, "0.00 %")] {
+            assert_eq!(signed_percent(x), text);
+        }
+    }
 
     #[test]
     fn figures() {

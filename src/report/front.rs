@@ -5,7 +5,8 @@ use maud::{Markup, html};
 use super::{
     Report,
     charts::figure,
-    table::{Column, blocks, cells, symbol, table},
+    table::{Column, blocks, cells, class, table},
+    typeset::typeset,
 };
 use crate::{
     chart::{Axis, Curve, Family, Figure, Ink, Mark, Panel, Scale, Stroke, Symbol, System},
@@ -171,14 +172,13 @@ fn points(front: &Front) -> Markup {
         .iter()
         .map(|i| (i.words(), Column::Number))
         .collect();
-    let of_index = columns.len();
     columns.extend(
         front
             .parameters
             .iter()
             .map(|p| (p.symbol(), Column::Number)),
     );
-    columns.push(("status", Column::Wide));
+    columns.push(("status", Column::Text));
     html! {
         div.table {
             table {
@@ -186,9 +186,8 @@ fn points(front: &Front) -> Markup {
                 thead {
                     tr {
                         th scope="col" { "point" }
-                        @for (i, (head, _)) in columns.iter().enumerate() {
-                            @if i < of_index { th scope="col" .number { (head) } }
-                            @else { th scope="col" .number { (symbol(head)) } }
+                        @for (head, column) in &columns {
+                            th scope="col" class=[class(*column)] { (typeset(head)) }
                         }
                     }
                 }

@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::{
     Report,
+    gain::gain,
     table::{Column, blocks, table},
 };
 use crate::{
@@ -21,6 +22,7 @@ pub fn glance(report: &Report) -> Markup {
         section #glance aria-labelledby="glance-title" {
             h2 #glance-title { "The result at a glance" }
             (said(report))
+            (gain(report))
             (margins(report))
             @if report.designed { (ended(report)) }
             (exceeded(report))
@@ -70,6 +72,9 @@ fn margins(report: &Report) -> Markup {
             if margin.condition.is_none() {
                 row[1] = "nominal".into();
             }
+            // The verdict beside the name: it is in sight on a narrow page too.
+            let verdict = row.pop().unwrap_or_default();
+            row.insert(2, verdict);
             row
         })
         .collect();
@@ -77,12 +82,12 @@ fn margins(report: &Report) -> Markup {
     let mut columns = vec![
         ("index", Column::Head),
         ("condition", Column::Text),
+        ("verdict", Column::Verdict),
         ("asked, SI", Column::Number),
         ("asked, US", Column::Number),
         ("reached, SI", Column::Number),
         ("reached, US", Column::Number),
         ("margin", Column::Number),
-        ("verdict", Column::Verdict),
     ];
     let rows = if conditions {
         rows

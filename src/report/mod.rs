@@ -11,12 +11,14 @@ pub mod charts;
 mod checks;
 mod form;
 mod front;
+mod gain;
 mod glance;
 mod origin;
 mod page;
 mod parameters;
 mod requirement;
 mod table;
+mod typeset;
 
 pub use page::page;
 

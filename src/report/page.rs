@@ -15,14 +15,23 @@ use crate::{
 };
 
 const STYLE: &str = include_str!("assets/report.css");
-const CHART: &str = include_str!("assets/chart.js");
-const FRONT: &str = include_str!("assets/front.js");
+const PROGRAM: &str = concat!(
+    include_str!("assets/number.js"),
+    include_str!("assets/axis.js"),
+    include_str!("assets/view.js"),
+    include_str!("assets/panel.js"),
+    include_str!("assets/pointer.js"),
+    include_str!("assets/keyboard.js"),
+    include_str!("assets/chart.js"),
+    include_str!("assets/front.js"),
+    include_str!("assets/scroll.js"),
+);
 
 /// The report as HTML.
 pub fn page(report: &Report) -> String {
     let style = format!("{}{STYLE}", stylesheet(Theme::Page));
     // Names of the programs stay their own; the page gets none.
-    let program = format!("(() => {{\n\"use strict\";\n{CHART}{FRONT}}})();\n");
+    let program = format!("(() => {{\n\"use strict\";\n{PROGRAM}}})();\n");
     let title = title(report.name, &report.result.case);
     let kind = if report.designed {
         "Suspension design"

@@ -4,7 +4,8 @@ use maud::{Markup, html};
 
 use super::{
     Report,
-    table::{Column, symbol, table},
+    table::{Column, table},
+    typeset::symbol,
 };
 use crate::{export::number::both, parameter::Parameter};
 

@@ -2,10 +2,8 @@
 
 use maud::{Markup, html};
 
-use crate::{
-    chart::{Level, Text},
-    export::sheet::{Block, Sheet},
-};
+use super::typeset::{symbol, typeset};
+use crate::export::sheet::{Block, Sheet};
 
 /// Kind of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,7 +42,7 @@ fn head(columns: &[(&str, Column)]) -> Markup {
                 tr {
                     @for (head, column) in columns {
                         @if head.is_empty() { td {} }
-                        @else { th scope="col" class=[class(*column)] { (head) } }
+                        @else { th scope="col" class=[class(*column)] { (typeset(head)) } }
                     }
                 }
             }
@@ -57,29 +55,17 @@ pub fn cells(columns: &[(&str, Column)], row: &[String]) -> Markup {
     html! {
         @for ((_, column), cell) in columns.iter().zip(row) {
             @match column {
-                Column::Head => th scope="row" { (cell) },
+                Column::Head => th scope="row" { (typeset(cell)) },
                 Column::Symbol => td { (symbol(cell)) },
                 Column::Verdict => td class=(verdict(cell)) { (cell) },
-                _ => td class=[class(*column)] { (cell) },
+                _ => td class=[class(*column)] { (typeset(cell)) },
             }
         }
     }
 }
 
-/// A symbol with its subscripts.
-pub fn symbol(marked: &str) -> Markup {
-    html! {
-        @for (piece, level) in &Text::new(marked).0 {
-            @match level {
-                Level::Base => (piece),
-                Level::Lowered => sub { (piece) },
-                Level::Raised => sup { (piece) },
-            }
-        }
-    }
-}
-
-fn class(column: Column) -> Option<&'static str> {
+/// Class of the cells of a column.
+pub fn class(column: Column) -> Option<&'static str> {
     match column {
         Column::Number => Some("number"),
         Column::Wide => Some("wide"),
@@ -107,8 +93,8 @@ pub fn blocks(sheet: &Sheet, caption: &str) -> Markup {
     html! {
         @for (section, block) in named {
             @match block {
-                Block::Heading(heading) => h3 { (heading) },
-                Block::Line(line) => p { (line) },
+                Block::Heading(heading) => h3 { (typeset(heading)) },
+                Block::Line(line) => p { (typeset(line)) },
                 Block::Table { header, left, rows } => (plain(section, header, left, rows)),
             }
         }

@@ -23,6 +23,8 @@ pub struct Goal {
 /// What a front trades off.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Front {
+    /// Whether the spec has a table of it, so that one belongs to a report.
+    pub asked: bool,
     /// Two or three indices; the report's stability–curving trade-off unless given.
     pub indices: Vec<Index>,
     /// Points asked for.
@@ -34,6 +36,7 @@ pub struct Front {
 impl Default for Front {
     fn default() -> Self {
         Self {
+            asked: false,
             indices: vec![Index::CriticalSpeed, Index::DegreeCurve],
             points: 20,
             bounds: Demands::default(),
@@ -124,7 +127,10 @@ fn index(value: &Value) -> Result<Index, Diagnostic> {
 
 /// Reads `[pareto]`.
 pub(super) fn front(document: &Document, mistakes: &mut Mistakes) -> Front {
-    let mut front = Front::default();
+    let mut front = Front {
+        asked: document.table("pareto").is_some(),
+        ..Front::default()
+    };
     if let Some(value) = document.get(keys::FRONT_INDICES) {
         front.indices = mistakes.collect(front_indices(value)).unwrap_or_default();
     }

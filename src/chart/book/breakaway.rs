@@ -1,11 +1,10 @@
 //! The influence of the yaw breakaway torque on curving (Figure A.2).
 
 use super::{
-    Entry, curving::degree_axis, performance::degree_curve, sampling::sample, value::number,
-    workbook::Workbook,
+    Entry, curving::degree_axis, performance::degree_curve, sampling::sample, workbook::Workbook,
 };
 use crate::{
-    chart::{Curve, Direction, Family, Figure, Limit, Mark, Panel, Scale, Stroke},
+    chart::{Curve, Direction, Family, Figure, Mark, Panel, Scale, Stroke},
     index::Index,
     parameter::Parameter,
     units::us::{FOOT, LBF},
@@ -53,12 +52,7 @@ pub(super) fn draw(book: &Workbook, entry: &Entry) -> Figure {
     let panel = Panel::new("", x, y)
         .with(Family::new("yaw-stiffness", "", Stroke::default()).curves(curves))
         .mark(own.map(|degree| Mark::design([torque.get(book.case()), degree])))
-        .limit(book.spec.demands.get(Index::DegreeCurve).map(|d| Limit {
-            axis: Direction::Y,
-            value: d.to_degrees(),
-            at_least: true,
-            label: format!("required {}°", number(d.to_degrees(), 3)),
-        }));
+        .limit(book.required(Index::DegreeCurve, Direction::Y));
     let mut figure = entry
         .figure("Degree curve against secondary yaw breakaway torque")
         .panel(panel)

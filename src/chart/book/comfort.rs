@@ -1,6 +1,11 @@
 //! Ride comfort by frequency: the ISO boundary (Figure 3.2.1) and roll acceleration (3.2.2).
 
-use super::{Entry, spectra::mean_squares, workbook::Workbook};
+use super::{
+    Entry,
+    performance::{lateral_passengers, vertical_passengers},
+    spectra::mean_squares,
+    workbook::Workbook,
+};
 use crate::{
     chart::{Axis, Curve, Dash, Family, Figure, Ink, Labels, Panel, Scale, Stroke, Unit, Weight},
     comfort::{iso_boundary, third_octave},
@@ -84,13 +89,8 @@ pub(super) fn iso(book: &Workbook, entry: &Entry) -> Figure {
     );
     let mut design =
         Family::new("design", "", Stroke::new(Ink::Black, Dash::Solid)).labelled(Labels::Legend);
-    let speed = case.service.speed;
-    let model = VerticalModel::new(case);
-    let vertical = stable(&model.forced, speed)
-        .and_then(|poles| PassengerRide::vertical(&model, case, &poles).ok());
-    let model = LateralModel::new(case);
-    let lateral = stable(&model.forced, speed)
-        .and_then(|poles| PassengerRide::lateral(&model, case, &poles).ok());
+    let vertical = vertical_passengers(case);
+    let lateral = lateral_passengers(case, &LateralModel::new(case));
     if let Some(passengers) = &vertical {
         design = design.curve(
             Curve::line("design, vertical, worst point", worst_point(passengers))
@@ -126,18 +126,15 @@ pub(super) fn iso(book: &Workbook, entry: &Entry) -> Figure {
     figure
 }
 
-/// Poles of a model that is stable at a speed.
-fn stable(model: &ForcedModel, speed: f64) -> Option<Poles> {
-    let poles = Poles::at(&model.system, speed).ok()?;
-    poles.stable().then_some(poles)
-}
-
-/// RMS roll acceleration in one-third-octave bands of one output of a model.
+/// RMS roll acceleration in one-third-octave bands of one output of a model; none where it did not
+/// converge.
 fn roll_bands(book: &Workbook, model: &ForcedModel, output: usize) -> Vec<[f64; 2]> {
     let case = book.case();
     let [low, high] = case.model.frequency_band;
     let edges = third_octave::edges_between(low, high);
-    let integrals = mean_squares(model, case, output, &edges);
+    let Some(integrals) = mean_squares(model, case, output, &edges) else {
+        return Vec::new();
+    };
     steps(edges.windows(2).enumerate().filter_map(|(b, edges)| {
         let centre = third_octave::centre_of(edges[0], edges[1])?;
         Some((centre, integrals.band(b, 0).sqrt()))
@@ -149,7 +146,8 @@ pub(super) fn roll(book: &Workbook, entry: &Entry) -> Figure {
     let case = book.case();
     let mut family = Family::new("roll", "", Stroke::default()).labelled(Labels::Legend);
     let lateral = LateralModel::new(case);
-    let stable = stable(&lateral.forced, case.service.speed).is_some();
+    let poles = Poles::at(&lateral.forced.system, case.service.speed);
+    let stable = poles.is_ok_and(|poles| poles.stable());
     if stable {
         let bands = roll_bands(book, &lateral.forced, lateral::output::ROLL_ACCELERATION);
         family = family.curve(

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     case::Case,
-    chart::{Axis, Curve, Direction, Family, Figure, Limit, Mark, Panel, Scale, Stroke},
+    chart::{Axis, Curve, Direction, Family, Figure, Mark, Panel, Stroke},
     index::Index,
     parameter::Parameter,
     units::{
@@ -122,26 +122,13 @@ fn panel(
         })
         .collect();
     let family = Family::new("parameter", "", Stroke::default()).curves(curves);
-    let required = book.spec.demands.get(Index::CriticalSpeed);
     let most = family.curves.iter().flat_map(Curve::points).map(|p| p[1]);
     let y = book
-        .axis(
-            "critical speed",
-            "V_cr",
-            "critical_speed_m_per_s",
-            Quantity::Speed,
-            Scale::Linear,
-            [0.0, 0.0],
-        )
-        .holding(most.chain(required).chain([book.case().service.speed]));
+        .critical_speed_axis([0.0, 0.0])
+        .holding(most.chain([book.case().service.speed]));
     let panel = Panel::new("", x, y)
         .with(family)
-        .limit(required.map(|value| Limit {
-            axis: Direction::Y,
-            value,
-            at_least: true,
-            label: format!("required {}", book.value(Quantity::Speed, value, 3)),
-        }));
+        .limit(book.required(Index::CriticalSpeed, Direction::Y));
     (panel, everywhere.into_inner())
 }
 

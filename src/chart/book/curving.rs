@@ -126,14 +126,7 @@ pub(super) fn boundary(book: &Workbook, entry: &Entry) -> Figure {
         at_least: false,
         label: format!("FRA: {}", height(book.system, CANT_DEFICIENCY)),
     });
-    if let Some(required) = book.spec.demands.get(Index::DegreeCurve) {
-        panel = panel.limit(Limit {
-            axis: Direction::X,
-            value: required.to_degrees(),
-            at_least: true,
-            label: format!("required {}°", number(required.to_degrees(), 3)),
-        });
-    }
+    panel = panel.limit(book.required(Index::DegreeCurve, Direction::X));
     if let Some(degree) = degree_curve(case) {
         panel = panel.mark(Mark {
             label: format!("design {}°", number(degree, 3)),

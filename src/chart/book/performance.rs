@@ -7,6 +7,7 @@ use crate::{
         critical_speed::Stability,
         curving::CurvingLimits,
         lateral_modes::{LateralMode, LateralModes},
+        passenger_ride::PassengerRide,
         ride::{LateralRide, VerticalRide},
     },
 };
@@ -33,6 +34,19 @@ pub fn lateral_ride(case: &Case) -> Option<LateralRide> {
 /// Vertical ride; `None`: the carbody overturns.
 pub fn vertical_ride(case: &Case) -> Option<VerticalRide> {
     VerticalRide::new(&VerticalModel::new(case), case).ok()
+}
+
+/// What passengers feel laterally, at c.g., front and rear; `None`: unstable at the operating speed.
+pub fn lateral_passengers(case: &Case, model: &LateralModel) -> Option<[PassengerRide; 3]> {
+    let poles = Poles::at(&model.forced.system, case.service.speed).ok()?;
+    PassengerRide::lateral(model, case, &poles).ok()
+}
+
+/// What they feel vertically; `None`: the carbody overturns.
+pub fn vertical_passengers(case: &Case) -> Option<[PassengerRide; 3]> {
+    let model = VerticalModel::new(case);
+    let poles = Poles::at(&model.forced.system, case.service.speed).ok()?;
+    PassengerRide::vertical(&model, case, &poles).ok()
 }
 
 /// Modes of the lateral model at a speed, m/s; none where there are no eigenvalues.

@@ -12,8 +12,8 @@ use super::{
 };
 use crate::{
     chart::{
-        Axis, Curve, Dash, Direction, Family, Figure, Ink, Labels, Limit, Mark, Panel, Scale,
-        Stroke, Symbol, Unit, Weight,
+        Axis, Curve, Dash, Direction, Family, Figure, Ink, Labels, Mark, Panel, Scale, Stroke,
+        Symbol, Unit, Weight,
     },
     evaluate::mode::{damping_ratio, frequency},
     index::Index,
@@ -96,20 +96,13 @@ impl Shown<'_> {
 
     fn damping(&self, speed: Axis, critical: Option<f64>) -> Panel {
         let ratio = axis("damping ratio", "ζ", "damping_ratio", [-0.1, 1.0], "");
-        let written = |v: f64| self.book.value(Quantity::Speed, v, 3);
         let onset = critical.map(|v| {
-            let text = format!("V_cr = {}", written(v));
+            let text = format!("V_cr = {}", self.book.value(Quantity::Speed, v, 3));
             Mark::new([v, 0.0], Symbol::Disc, Ink::Vermilion, text)
         });
-        let required = self.book.spec.demands.get(Index::CriticalSpeed);
         self.panel("a", [speed, ratio], HIGHEST, |v, s| [v, damping_ratio(s)])
             .titled("(a) damping ratio")
-            .limit(required.map(|value| Limit {
-                axis: Direction::X,
-                value,
-                at_least: true,
-                label: format!("required {}", written(value)),
-            }))
+            .limit(self.book.required(Index::CriticalSpeed, Direction::X))
             .mark(onset)
     }
 

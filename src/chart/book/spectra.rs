@@ -3,6 +3,7 @@
 use super::{
     Entry,
     comfort::{acceleration_axis, band_steps, boundary, frequency_axis},
+    performance::lateral_passengers,
     value::number,
     workbook::Workbook,
 };
@@ -13,21 +14,13 @@ use crate::{
         Weight,
     },
     comfort::iso_boundary,
-    dynamics::{
-        ForcedModel, LateralModel, Poles, VerticalModel, elimination::LANES, lateral, vertical,
-    },
-    evaluate::{
-        integration::{Integrals, integrate},
-        passenger_ride::PassengerRide,
-        response::Response,
-    },
+    dynamics::{ForcedModel, LateralModel, VerticalModel, elimination::LANES, lateral, vertical},
+    evaluate::{integration::Integrals, response::Response, ride},
     vehicle::GRAVITY,
 };
 
 /// Frequencies of a spectrum.
 const POINTS: usize = 321;
-/// Accuracy of the mean squares: far below what a chart shows.
-const TOLERANCE: f64 = 1e-5;
 /// End of the band that the report singles out, Hz.
 const LOW_BAND: f64 = 2.0;
 
@@ -46,27 +39,25 @@ fn spectrum(model: &ForcedModel, case: &Case, output: usize, frequencies: &[f64]
     values
 }
 
-/// Mean squares of one output of a model between frequencies in Hz.
+/// Mean squares of one output of a model between frequencies in Hz; `None` where they did not converge.
 pub(super) fn mean_squares(
     model: &ForcedModel,
     case: &Case,
     output: usize,
     edges: &[f64],
-) -> Integrals {
+) -> Option<Integrals> {
     let outputs = output..output + 1;
-    let mut response = Response::of(model, &case.service.track, case.service.speed, outputs);
-    integrate(edges, [1, 1], TOLERANCE, |f, values| {
-        response.densities(f, values);
-    })
+    let response = Response::of(model, &case.service.track, case.service.speed, outputs);
+    ride::mean_squares(response, edges, 0, |_, _| ()).ok()
 }
 
 /// Share of the RMS value of an output that lies below 2 Hz: the RMS of the band over that of the
 /// whole.
-fn share(model: &ForcedModel, case: &Case, output: usize) -> f64 {
+fn share(model: &ForcedModel, case: &Case, output: usize) -> Option<f64> {
     let [low, high] = case.model.frequency_band;
     let edges = [low, LOW_BAND.clamp(low, high), high];
-    let integrals = mean_squares(model, case, output, &edges);
-    (integrals.band(0, 0) / integrals.total(0)).sqrt()
+    let integrals = mean_squares(model, case, output, &edges)?;
+    Some((integrals.band(0, 0) / integrals.total(0)).sqrt())
 }
 
 /// A panel with the spectrum of an acceleration.
@@ -94,14 +85,17 @@ fn panel(book: &Workbook, id: &str, model: &ForcedModel, output: usize) -> Panel
         ]),
     )
     .rounded();
-    let percent = number(100.0 * share(model, case, output), 3);
+    let label = share(model, case, output).map_or_else(
+        || "0–2 Hz".into(),
+        |share| format!("0–2 Hz: {} % of RMS", number(100.0 * share, 3)),
+    );
     let line = Curve::line("", points).stroke(Stroke::default());
     let [from, _] = x.range;
     Panel::new(id, x, y)
         .shade(Shade {
             axis: Direction::X,
             range: [from, LOW_BAND],
-            label: format!("0–2 Hz: {percent} % of RMS"),
+            label,
         })
         .with(Family::new("spectrum", "", Stroke::default()).curve(line))
 }
@@ -143,11 +137,7 @@ pub(super) fn lateral_front(book: &Workbook, entry: &Entry) -> Figure {
         );
     figure.subtitle = book.subtitle(Some(case.service.speed), &[]);
     let model = LateralModel::new(case);
-    let ride = Poles::at(&model.forced.system, case.service.speed)
-        .ok()
-        .filter(Poles::stable)
-        .and_then(|poles| PassengerRide::lateral(&model, case, &poles).ok());
-    let Some([_, ride, _]) = ride else {
+    let Some([_, ride, _]) = lateral_passengers(case, &model) else {
         let empty = Axis::new("", "", "y", Scale::Linear, [0.0, 1.0], [Unit::new("", 1.0)]);
         return figure
             .panel(Panel::new("", frequency_axis([0.1, 50.0]), empty))

@@ -11,8 +11,7 @@ use super::{
 };
 use crate::{
     chart::{
-        Axis, Curve, Dash, Direction, Family, Field, Figure, Ink, Limit, Mark, Panel, Scale,
-        Stroke, Weight,
+        Axis, Curve, Dash, Direction, Family, Field, Figure, Ink, Mark, Panel, Stroke, Weight,
     },
     index::Index,
     parameter::Parameter,
@@ -113,7 +112,7 @@ fn speed_lines(book: &Workbook, field: &Field, axes: [&Axis; 2]) -> Family {
         format!("critical speed, {}", unit.label),
         Stroke::new(Ink::Black, Dash::Solid),
     );
-    for n in 1..=24 {
+    for n in 1..=16 {
         let speed = step * f64::from(n);
         let lines = field.level(SPEED, speed * unit.factor, axes);
         // The required speed has a line of its own.
@@ -196,23 +195,14 @@ pub(super) fn envelopes(book: &Workbook, entry: &Entry) -> Figure {
     let design = critical_speed(case)
         .ok()
         .flatten()
-        .and_then(|speed| Some(Mark::design([speed, degree_curve(case)?])));
-    let demands = &book.spec.demands;
+        .and_then(|speed| Some(Mark::design([speed, degree_curve(case)?])))
+        .map(|mark| Mark {
+            label: format!("design, λ = {}", number(case.wheel_rail.conicity, 3)),
+            ..mark
+        });
     let speed_axis = book
-        .axis(
-            "critical speed",
-            "V_cr",
-            "critical_speed_m_per_s",
-            Quantity::Speed,
-            Scale::Linear,
-            [ENVELOPE[0] * MPH, 300.0 * MPH],
-        )
-        .holding(
-            design
-                .iter()
-                .map(|mark| mark.at[0])
-                .chain(demands.get(Index::CriticalSpeed)),
-        );
+        .critical_speed_axis([ENVELOPE[0] * MPH, 300.0 * MPH])
+        .holding(design.iter().map(|mark| mark.at[0]));
     let shown = family
         .curves
         .iter()
@@ -221,24 +211,10 @@ pub(super) fn envelopes(book: &Workbook, entry: &Entry) -> Figure {
         .map(|p| p[1])
         .fold(0.0, f64::max);
     let degree = degree_axis([0.0, shown.min(8.0)]).holding(design.iter().map(|mark| mark.at[1]));
-    let limit = |index: Index, axis: Direction| {
-        let value = demands.get(index)?;
-        let label = format!("required {}", book.value(index.quantity(), value, 3));
-        let value = match axis {
-            Direction::X => value,
-            Direction::Y => value.to_degrees(),
-        };
-        Some(Limit {
-            axis,
-            value,
-            at_least: true,
-            label,
-        })
-    };
     let panel = Panel::new("", speed_axis, degree)
         .with(family)
-        .limit(limit(Index::CriticalSpeed, Direction::X))
-        .limit(limit(Index::DegreeCurve, Direction::Y))
+        .limit(book.required(Index::CriticalSpeed, Direction::X))
+        .limit(book.required(Index::DegreeCurve, Direction::Y))
         .mark(design);
     let mut figure = entry
         .figure("Optimum stability–curving envelopes")

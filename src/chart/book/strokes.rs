@@ -3,7 +3,7 @@
 
 use super::{Entry, performance::lateral_ride, sweep::Sweep, workbook::Workbook};
 use crate::{
-    chart::{Axis, Curve, Direction, Family, Figure, Limit, Mark, Panel, Scale, Stroke},
+    chart::{Axis, Curve, Direction, Family, Figure, Limit, Mark, Panel, Scale, Shade, Stroke},
     evaluate::{
         limits::{EXCURSION, PEAK, PRIMARY_STOP, SECONDARY_STOP},
         ride::LateralRide,
@@ -205,6 +205,7 @@ pub(super) fn draw(book: &Workbook, entry: &Entry, shown: Shown, over: Over) -> 
             .into_iter()
             .chain(near.map(|(value, _)| *value * 1.02)),
     );
+    let shades = unstable(book, over, &x);
     let interrupted = curves.iter().any(|curve| curve.pieces.len() != 1)
         || curves.iter().any(|c| c.pieces.iter().flatten().count() < 2)
         || over_unstable(book, over);
@@ -218,7 +219,7 @@ pub(super) fn draw(book: &Workbook, entry: &Entry, shown: Shown, over: Over) -> 
         Stroke::default(),
     )
     .curves(curves);
-    let panel = Panel::new("", x, y)
+    let mut panel = Panel::new("", x, y)
         .with(family)
         .mark(design.clone())
         .limit(near.map(|(value, label)| Limit {
@@ -227,6 +228,7 @@ pub(super) fn draw(book: &Workbook, entry: &Entry, shown: Shown, over: Over) -> 
             at_least: false,
             label: label.clone(),
         }));
+    panel.shades = shades;
     let what = match (over, shown) {
         (Over::Speed, Shown::PrimaryStroke) => "primary lateral stroke of wheelset 4",
         (Over::Speed, Shown::Excursion) => "excursion of wheelset 1",
@@ -265,6 +267,34 @@ fn highest(curves: &[Curve]) -> f64 {
     values.sort_by(f64::total_cmp);
     let median = values.get(values.len() / 2).copied().unwrap_or(0.0);
     values.last().map_or(0.0, |most| most.min(2.5 * median))
+}
+
+/// Share of the axis that a range without a ride must have to be named.
+const NAMED: f64 = 0.15;
+
+/// Where there is no ride, but over the speed, where every conicity ends at its own.
+fn unstable(book: &Workbook, over: Over, x: &Axis) -> Vec<Shade> {
+    let sweep = match over {
+        Over::Conicity => book.over_conicity(),
+        Over::Bending => book.over_bending(),
+        Over::Lateral => book.over_lateral(),
+        Over::Speed => return Vec::new(),
+    };
+    let speed = book.value(Quantity::Speed, book.case().service.speed, 3);
+    let shade = |range: [f64; 2]| {
+        let [from, to] = range.map(|v| x.fraction(v));
+        let label = if (to - from).abs() > NAMED {
+            format!("unstable at {speed}")
+        } else {
+            String::new()
+        };
+        Shade {
+            axis: Direction::X,
+            range,
+            label,
+        }
+    };
+    sweep.unstable().into_iter().map(shade).collect()
 }
 
 fn over_unstable(book: &Workbook, over: Over) -> bool {

@@ -27,6 +27,24 @@ impl Sweep {
             .map(|(value, r)| [*value, ride(r)])
             .collect()
     }
+
+    /// Ranges of the values without a ride.
+    pub fn unstable(&self) -> Vec<[f64; 2]> {
+        let last = self.rides.len().saturating_sub(1);
+        let without = |k: usize| self.rides.get(k).is_some_and(Option::is_none);
+        // The end of stability lies somewhere between two values.
+        let between = |a: usize, b: usize| f64::midpoint(self.values[a], self.values[b]);
+        let starts = (0..self.rides.len()).filter(|k| without(*k) && (*k == 0 || !without(k - 1)));
+        starts
+            .map(|k| {
+                let end = (k..last).find(|k| !without(k + 1)).unwrap_or(last);
+                [
+                    between(k.saturating_sub(1), k),
+                    between(end, (end + 1).min(last)),
+                ]
+            })
+            .collect()
+    }
 }
 
 /// Values in a sweep.

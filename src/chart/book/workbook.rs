@@ -7,7 +7,8 @@ use rayon::prelude::*;
 use super::{sweep::Sweep, value::written};
 use crate::{
     case::Case,
-    chart::{Axis, Layer, Mark, Scale, System, Unit},
+    chart::{Axis, Direction, Layer, Limit, Mark, Scale, System, Unit},
+    index::Index,
     parameter::Parameter,
     spec::Spec,
     units::{DisplayUnit, Quantity, us},
@@ -145,19 +146,6 @@ impl<'a> Workbook<'a> {
         )
     }
 
-    /// An axis of a plain number or of something with one unit.
-    pub fn plain_axis(
-        &self,
-        title: &str,
-        symbol: &str,
-        column: &str,
-        scale: Scale,
-        range: [f64; 2],
-        unit: Unit,
-    ) -> Axis {
-        Axis::new(title, symbol, column, scale, range, [unit])
-    }
-
     /// A logarithmic axis of a parameter, wide enough for the design.
     pub fn parameter_axis(&self, parameter: Parameter, range: [f64; 2]) -> Axis {
         let axis = self.axis(
@@ -202,15 +190,43 @@ impl<'a> Workbook<'a> {
         .holding([speed])
     }
 
+    /// An axis of critical speeds, m/s, wide enough for the required one.
+    pub fn critical_speed_axis(&self, range: [f64; 2]) -> Axis {
+        self.axis(
+            "critical speed",
+            "V_cr",
+            "critical_speed_m_per_s",
+            Quantity::Speed,
+            Scale::Linear,
+            range,
+        )
+        .holding(self.spec.demands.get(Index::CriticalSpeed))
+    }
+
+    /// The least value that the spec requires of an index, across an axis of it: SI, but degree
+    /// curves in degrees, as their axes are.
+    pub fn required(&self, index: Index, axis: Direction) -> Option<Limit> {
+        let value = self.spec.demands.get(index)?;
+        Some(Limit {
+            axis,
+            value: match index {
+                Index::DegreeCurve => value.to_degrees(),
+                _ => value,
+            },
+            at_least: true,
+            label: format!("required {}", self.value(index.quantity(), value, 3)),
+        })
+    }
+
     /// An axis of the conicity.
     pub fn conicity_axis(&self) -> Axis {
-        self.plain_axis(
+        Axis::new(
             "wheel conicity",
             "λ",
             "conicity",
             Scale::Linear,
             [0.0, CONICITY_RANGE[1]],
-            Unit::new("", 1.0),
+            [Unit::new("", 1.0)],
         )
     }
 

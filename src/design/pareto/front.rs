@@ -90,6 +90,30 @@ pub(super) fn clean(points: &mut Vec<FrontPoint>, indices: &[Index]) -> usize {
     lost.iter().filter(|lost| **lost).count()
 }
 
+/// Most of one index that a point may give for as much of another, in badness: of ratios, percent for
+/// percent.
+const DEAREST: f64 = 20.0;
+
+/// Removes points that are not properly efficient (Geoffrion 1968): beside some other point they
+/// give more than [`DEAREST`] times of one index what they gain in any. Returns how many. No chain of
+/// such points closes, as gains add up along it, so the best of each chain stays.
+pub(super) fn bargains(points: &mut Vec<FrontPoint>, indices: &[Index]) -> usize {
+    let badness: Vec<Vec<f64>> = points.iter().map(|p| p.badness(indices)).collect();
+    let better = |a: &[f64], b: &[f64]| {
+        let pairs = a.iter().zip(b);
+        pairs.map(|(a, b)| b - a).fold(0.0, f64::max)
+    };
+    let dear = |b: &[f64]| {
+        badness
+            .iter()
+            .any(|a| better(a, b) > DEAREST * better(b, a))
+    };
+    let mut keep = badness.iter().map(|b| !dear(b));
+    let count = points.len();
+    points.retain(|_| keep.next().unwrap_or(true));
+    count - points.len()
+}
+
 /// Removes points that did not converge to an optimum, but for the best in every index, which end
 /// the front and say how they were found.
 pub(super) fn converged(points: &mut Vec<FrontPoint>, indices: &[Index]) {

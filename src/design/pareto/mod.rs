@@ -5,7 +5,8 @@
 //! Every point is a converged constrained optimum, started from its neighbours' designs. The ends
 //! are the designs best in each index alone, and of those the best in the others. Where
 //! neighbouring points are far apart, a point is put between them. Three indices are swept in
-//! slices of the first.
+//! slices of the first, every point's other indices are made as good as they can be for next to
+//! nothing, and points that give much of one index for little of another are left out.
 //!
 //! Requirements and limits on the indices traded off are left out: the front shows them, and ends
 //! where `[pareto.bounds]` says.
@@ -35,7 +36,7 @@ use crate::{
     parameter::Parameter,
     spec::Spec,
 };
-use front::{badness, clean, converged, distance, dominates, extents, of_badness, thin};
+use front::{badness, bargains, clean, converged, distance, dominates, extents, of_badness, thin};
 
 /// A front.
 #[derive(Debug, Clone)]
@@ -73,6 +74,7 @@ const SHAPE: usize = 6;
 /// [`NoDesign`] if no design could be evaluated at all. A run that is stopped before its first point
 /// gives a front without points.
 pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
+    let (count, before) = (archive.count(), archive.failures());
     let indices = &spec.front.indices;
     let tasks = Tasks::new(spec);
     let profiles = tasks.profiles(&spec.case);
@@ -127,18 +129,30 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
     if profiles.len() > 1 {
         parameters.push(Parameter::Conicity);
     }
-    let dominated = clean(&mut points, indices);
+    let mut dominated = clean(&mut points, indices);
     converged(&mut points, indices);
+    if indices.len() > 2 {
+        for point in &mut points {
+            tracers[point.profile].spare(point);
+        }
+        dominated += clean(&mut points, indices);
+        dominated += bargains(&mut points, indices);
+    }
     thin(&mut points, indices, spec.front.points);
     points.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
+    let mut failures = archive.failures();
+    for (failure, count) in before {
+        failures.entry(failure).and_modify(|all| *all -= count);
+    }
+    failures.retain(|_, count| *count > 0);
     Ok(Front {
         indices: indices.clone(),
         parameters,
         points,
         dominated,
         stopped: archive.stopped(),
-        evaluations: archive.count(),
-        failures: archive.failures(),
+        evaluations: archive.count() - count,
+        failures,
     })
 }
 
@@ -427,6 +441,32 @@ impl Tracer<'_> {
             let (objective, bounds) = (points[i].objective, points[i].bounds.clone());
             if let Ok(Some(point)) = self.solve(objective, &bounds, &start) {
                 points[i] = point;
+            }
+        }
+    }
+
+    /// Makes the other indices of a point as good as they can be for next to nothing: where the bound
+    /// on one of three is not active, the search for the best of another leaves it anywhere.
+    fn spare(&self, point: &mut FrontPoint) {
+        let objective = point.objective;
+        for other in self.indices.iter().filter(|i| **i != objective) {
+            if self.archive.stopped().is_some() {
+                return;
+            }
+            self.announce(&format!("what {} can be for nothing", other.words()));
+            let kept = self.indices.iter().filter(|i| *i != other);
+            let bounds: Bounds = kept
+                .map(|i| (*i, of_badness(*i, self.badness_of(point, *i) + END)))
+                .collect();
+            let near = Start {
+                radius: WIDE,
+                ..Start::near(vec![point.x.clone()])
+            };
+            if let Ok(Some(better)) = self.solve(*other, &bounds, &near)
+                && better.explained.status == Status::Optimal
+                && self.badness_of(&better, *other) < self.badness_of(point, *other) - END
+            {
+                *point = better;
             }
         }
     }
