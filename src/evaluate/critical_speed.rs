@@ -1,7 +1,7 @@
 //! Critical speed: the lowest speed at which an oscillatory mode loses its damping (3.4.4.2).
 
 use super::{
-    branches::{Branches, Event, Search},
+    branches::{Branches, Care, Event, Search},
     mode::{Mode, frequency},
 };
 use crate::{
@@ -113,9 +113,20 @@ impl Stability {
         range: [f64; 2],
         reach: f64,
     ) -> Option<Self> {
+        let with = |care| Self::followed_with(care, model, poles, range, reach);
+        Care::BOTH.into_iter().find_map(with)
+    }
+
+    fn followed_with(
+        care: Care,
+        model: &LateralModel,
+        poles: &Poles,
+        range: [f64; 2],
+        reach: f64,
+    ) -> Option<Self> {
         let [low, high] = range;
         let mut branches = Branches::within(range, model, poles)?;
-        let mut search = Search::onsets();
+        let mut search = Search::onsets(care);
         let enough = |events: &[Event], speed: f64| {
             let speeds = events.iter().map(|event| event.at.speed);
             speed > reach * speeds.fold(f64::INFINITY, f64::min)

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 
 use super::{
-    branches::{Branches, COMPLETE, Known, Search},
+    branches::{Branches, COMPLETE, Care, Known, Search},
     mode::{damping_ratio, frequency},
 };
 use crate::dynamics::{EigenError, LateralModel, Poles};
@@ -77,9 +77,20 @@ impl DampingRange {
         range: [f64; 2],
         below: f64,
     ) -> Option<Self> {
+        let with = |care| Self::followed_with(care, model, poles, range, below);
+        Care::BOTH.into_iter().find_map(with)
+    }
+
+    fn followed_with(
+        care: Care,
+        model: &LateralModel,
+        poles: &Poles,
+        range: [f64; 2],
+        below: f64,
+    ) -> Option<Self> {
         let [low, high] = range;
         let mut branches = Branches::within(range, model, poles)?;
-        let mut search = Search::minima(below);
+        let mut search = Search::minima(below, care);
         let bottom = branches.walk(low, &mut search, |_, _| false)?;
         let bottom = branches.complete(bottom, &mut search)?;
         let top = branches.walk(high, &mut search, |_, _| false)?;

@@ -1,11 +1,15 @@
 //! Limits of curving, and forces in a curve.
 
-use super::{Models, pieces};
+use super::{Measured, pieces};
 use crate::{
+    case::Case,
     dynamics::curving::CurvingModel,
     evaluate::{
         curving::{CurvingLimits, CurvingState, Limit},
-        gradients::curving::{CurvingTangents, WheelChange},
+        gradients::{
+            Constants,
+            curving::{CurvingTangents, WheelChange},
+        },
     },
     index::Index,
     optimize::problem::{Failure, Piece},
@@ -20,20 +24,37 @@ pub(super) struct Curve {
     wheels: Option<Vec<[[WheelChange; 2]; 4]>>,
 }
 
-impl Models<'_> {
+/// The curving models of a case, built when first asked for.
+pub(super) struct Curves<'a> {
+    case: &'a Case,
+    constants: Option<&'a Constants<'a>>,
+    limits: Option<(CurvingModel, CurvingLimits)>,
+    curve: Option<Curve>,
+}
+
+impl<'a> Curves<'a> {
+    pub fn new(case: &'a Case, constants: Option<&'a Constants<'a>>) -> Self {
+        Self {
+            case,
+            constants,
+            limits: None,
+            curve: None,
+        }
+    }
+
     fn limits(&mut self) -> Result<&(CurvingModel, CurvingLimits), Failure> {
-        if self.curving.is_none() {
+        if self.limits.is_none() {
             let model = CurvingModel::new(self.case, 0.0).map_err(|_| Failure::NoCurve)?;
             let limits = CurvingLimits::of(&model, self.case.wheel_rail.flange_clearance, 0.0);
-            self.curving = Some((model, limits));
+            self.limits = Some((model, limits));
         }
-        self.curving.as_ref().ok_or(Failure::NoCurve)
+        self.limits.as_ref().ok_or(Failure::NoCurve)
     }
 
     /// Derivatives of the curves at which limits are met, degrees; none for one that is not met.
     fn limit_gradients(&mut self, limits: &[(Limit, Option<f64>)]) -> Option<Vec<Vec<f64>>> {
         self.limits().ok()?;
-        let (constants, (model, _)) = (self.constants.as_ref()?, self.curving.as_ref()?);
+        let (constants, (model, _)) = (self.constants?, self.limits.as_ref()?);
         let tangents = CurvingTangents::new(model, constants, 0.0);
         let of = |(limit, degree): &(Limit, Option<f64>)| match degree.filter(|d| *d > 0.0) {
             Some(degree) => tangents.limit(*limit, degree),
@@ -47,8 +68,7 @@ impl Models<'_> {
             let service = &self.case.service;
             let (given, cant_deficiency) = (service.curve, service.cant_deficiency);
             let (degree, degrees) = if let Some(angle) = given {
-                let constants = self.constants.as_ref();
-                let zero = constants.map(|constants| vec![0.0; constants.len()]);
+                let zero = self.constants.map(|constants| vec![0.0; constants.len()]);
                 (angle.to_degrees(), zero)
             } else {
                 let governing = self.limits()?.1.governing();
@@ -62,7 +82,6 @@ impl Models<'_> {
                 .map_err(|_| Failure::NoCurve)?;
             let wheels = self
                 .constants
-                .as_ref()
                 .zip(degrees)
                 .and_then(|(constants, degrees)| {
                     let model = CurvingModel::new(self.case, cant_deficiency).ok()?;
@@ -74,7 +93,7 @@ impl Models<'_> {
         self.curve.as_ref().ok_or(Failure::NoCurve)
     }
 
-    pub(super) fn curving(&mut self, index: Index) -> Result<Vec<Piece>, Failure> {
+    pub fn measure(&mut self, index: Index) -> Measured {
         match index {
             Index::DegreeCurve | Index::FlangeLimitedCurve | Index::SlipLimitedCurve => {
                 self.limited_curves(index)
@@ -83,7 +102,7 @@ impl Models<'_> {
         }
     }
 
-    fn limited_curves(&mut self, index: Index) -> Result<Vec<Piece>, Failure> {
+    fn limited_curves(&mut self, index: Index) -> Measured {
         let of_index = |limit: &Limit| match limit {
             Limit::Flange(_) => index != Index::SlipLimitedCurve,
             Limit::Slip(..) => index != Index::FlangeLimitedCurve,

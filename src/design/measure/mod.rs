@@ -7,19 +7,17 @@ mod statics;
 
 use crate::{
     case::Case,
-    dynamics::{ForcedTangent, LateralModel, Poles, VerticalModel, curving::CurvingModel},
+    dynamics::{EigenError, ForcedTangent, LateralModel, Poles, VerticalModel},
     evaluate::{
-        curving::{CurvingLimits, Limit},
+        curving::Limit,
         gradients::Constants,
-        lateral_modes::LateralModes,
-        ride::NoRide,
+        ride::{NoRide, VerticalRide},
     },
     index::{Behaviour, Index},
     optimize::problem::{Failure, Piece},
     parameter::Parameter,
 };
-use curving::Curve;
-use ride::{Lateral, Vertical};
+use curving::Curves;
 
 /// Something to measure.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,8 +51,10 @@ impl std::fmt::Display for Wanted {
 ///
 /// [`Failure`] where the case has no such performance.
 pub fn measure(case: &Case, wanted: &[Wanted]) -> Result<Vec<Vec<Piece>>, Failure> {
-    let mut models = Models::new(case, None);
-    wanted.iter().map(|w| models.measure(*w)).collect()
+    Job::new(case, wanted, None, true)
+        .run()
+        .into_iter()
+        .collect()
 }
 
 /// As [`measure`], with the gradient of every piece over some constants of Table 4.1.1; for
@@ -68,96 +68,172 @@ pub fn measure_graded(
     wanted: &[Wanted],
     constants: &[Parameter],
 ) -> Result<Vec<Vec<Piece>>, Failure> {
-    let mut models = Models::new(case, Some(Constants::new(case, constants)));
-    wanted.iter().map(|w| models.measure(*w)).collect()
+    let constants = Constants::new(case, constants);
+    let job = Job::new(case, wanted, Some(&constants), true);
+    job.run().into_iter().collect()
 }
 
 /// As [`measure`], with a result for each of what is wanted: a case that is unstable at its speed
 /// has no lateral ride, but it has a critical speed.
 pub fn measure_each(case: &Case, wanted: &[Wanted]) -> Vec<Result<Vec<Piece>, Failure>> {
-    let mut models = Models::new(case, None);
-    wanted.iter().map(|w| models.measure(*w)).collect()
+    Job::new(case, wanted, None, false).run()
 }
 
-/// The models of a case, built when first asked for.
-struct Models<'a> {
+type Measured = Result<Vec<Piece>, Failure>;
+
+/// A case and what is wanted of it.
+struct Job<'a> {
     case: &'a Case,
+    wanted: &'a [Wanted],
     /// By which gradients are taken, if they are.
-    constants: Option<Constants<'a>>,
-    lateral: Option<(LateralModel, Vec<ForcedTangent>)>,
-    poles: Option<Poles>,
-    vertical: Option<(VerticalModel, Poles, Vec<ForcedTangent>)>,
-    lateral_ride: Option<Lateral>,
-    vertical_ride: Option<Vertical>,
-    modes: Option<LateralModes>,
-    curving: Option<(CurvingModel, CurvingLimits)>,
-    curve: Option<Curve>,
+    constants: Option<&'a Constants<'a>>,
+    /// Nothing is of use unless all is there.
+    all_or_nothing: bool,
 }
 
-impl<'a> Models<'a> {
-    fn new(case: &'a Case, constants: Option<Constants<'a>>) -> Self {
+impl<'a> Job<'a> {
+    fn new(
+        case: &'a Case,
+        wanted: &'a [Wanted],
+        constants: Option<&'a Constants<'a>>,
+        all_or_nothing: bool,
+    ) -> Self {
+        Self {
+            case,
+            wanted,
+            constants,
+            all_or_nothing,
+        }
+    }
+
+    /// The lateral model's indices beside those of the other models.
+    fn run(&self) -> Vec<Measured> {
+        let numbered = self.wanted.iter().copied().enumerate();
+        let (lateral, others): (Vec<_>, Vec<_>) =
+            numbered.partition(|(_, wanted)| wanted.is_of_lateral_model());
+        let (lateral, others) = rayon::join(|| self.lateral(&lateral), || self.others(&others));
+        let mut all: Vec<(usize, Measured)> = lateral.into_iter().chain(others).collect();
+        all.sort_by_key(|(i, _)| *i);
+        all.into_iter().map(|(_, measured)| measured).collect()
+    }
+
+    fn lateral(&self, wanted: &[(usize, Wanted)]) -> Vec<(usize, Measured)> {
+        if wanted.is_empty() {
+            return Vec::new();
+        }
+        let failed = |failure: Failure| wanted.iter().map(|(i, _)| (*i, Err(failure))).collect();
+        let Ok(lateral) = Lateral::new(self.case, self.constants) else {
+            return failed(Failure::Eigenvalues);
+        };
+        let (rides, stability): (Vec<_>, Vec<_>) =
+            wanted.iter().partition(|(_, wanted)| wanted.is_ride());
+        if self.all_or_nothing && !rides.is_empty() && !lateral.poles.stable() {
+            return failed(Failure::Unstable);
+        }
+        let (stability, rides) = rayon::join(
+            || {
+                let all = stability.iter();
+                all.map(|(i, wanted)| (*i, lateral.stability(*wanted)))
+                    .collect::<Vec<_>>()
+            },
+            || {
+                let mut ride = None;
+                let mut of = |index| lateral.ride(index, &mut ride);
+                let all = rides.iter().filter_map(|(i, wanted)| match wanted {
+                    Wanted::Index(index) => Some((*i, of(*index))),
+                    Wanted::DampingTo { .. } => None,
+                });
+                all.collect::<Vec<_>>()
+            },
+        );
+        stability.into_iter().chain(rides).collect()
+    }
+
+    fn others(&self, wanted: &[(usize, Wanted)]) -> Vec<(usize, Measured)> {
+        let mut curves = Curves::new(self.case, self.constants);
+        let mut vertical = Vertical::new(self.case, self.constants);
+        let mut of = |index: Index| match index.behaviour() {
+            Behaviour::Curving => curves.measure(index),
+            Behaviour::VerticalRide => vertical.ride(index),
+            _ => vertical.statics(index),
+        };
+        let all = wanted.iter().filter_map(|(i, wanted)| match wanted {
+            Wanted::Index(index) => Some((*i, of(*index))),
+            Wanted::DampingTo { .. } => None,
+        });
+        all.collect()
+    }
+}
+
+impl Wanted {
+    fn is_of_lateral_model(self) -> bool {
+        match self {
+            Self::DampingTo { .. } => true,
+            Self::Index(index) => {
+                matches!(
+                    index.behaviour(),
+                    Behaviour::Stability | Behaviour::LateralRide
+                )
+            }
+        }
+    }
+
+    fn is_ride(self) -> bool {
+        matches!(self, Self::Index(index) if index.behaviour() == Behaviour::LateralRide)
+    }
+}
+
+/// The lateral model of a case, its poles at the operating speed, and its derivatives if gradients
+/// are asked for.
+struct Lateral<'a> {
+    case: &'a Case,
+    model: LateralModel,
+    poles: Poles,
+    tangents: Vec<ForcedTangent>,
+    graded: bool,
+}
+
+impl<'a> Lateral<'a> {
+    fn new(case: &'a Case, constants: Option<&Constants>) -> Result<Self, EigenError> {
+        let model = LateralModel::new(case);
+        let tangents = constants.map(|constants| constants.lateral(&model));
+        Ok(Self {
+            case,
+            poles: Poles::at(&model.forced.system, case.service.speed)?,
+            model,
+            tangents: tangents.unwrap_or_default(),
+            graded: constants.is_some(),
+        })
+    }
+}
+
+/// The vertical model of a case, built when first asked for, likewise.
+struct Vertical<'a> {
+    case: &'a Case,
+    constants: Option<&'a Constants<'a>>,
+    model: Option<(VerticalModel, Poles, Vec<ForcedTangent>)>,
+    ride: Option<ride::Graded<VerticalRide>>,
+}
+
+impl<'a> Vertical<'a> {
+    fn new(case: &'a Case, constants: Option<&'a Constants<'a>>) -> Self {
         Self {
             case,
             constants,
-            lateral: None,
-            poles: None,
-            vertical: None,
-            lateral_ride: None,
-            vertical_ride: None,
-            modes: None,
-            curving: None,
-            curve: None,
+            model: None,
+            ride: None,
         }
     }
 
-    fn measure(&mut self, wanted: Wanted) -> Result<Vec<Piece>, Failure> {
-        match wanted {
-            Wanted::DampingTo { speed, below } => self.damping_to(speed, below),
-            Wanted::Index(index) => match index.behaviour() {
-                Behaviour::Stability => self.stability(index),
-                Behaviour::Curving => self.curving(index),
-                Behaviour::LateralRide => self.lateral_ride(index),
-                Behaviour::VerticalRide => self.vertical_ride(index),
-                Behaviour::Statics => self.statics(index),
-            },
-        }
-    }
-
-    /// The lateral model and its poles at the operating speed.
-    fn with_poles(&mut self) -> Result<(&LateralModel, &Poles), Failure> {
-        let (model, _, poles) = self.with_tangents()?;
-        Ok((model, poles))
-    }
-
-    /// As [`Models::with_poles`], with the model's derivatives if gradients are asked for.
-    fn with_tangents(&mut self) -> Result<(&LateralModel, &[ForcedTangent], &Poles), Failure> {
-        let (case, constants) = (self.case, &self.constants);
-        let (model, tangents) = &*self.lateral.get_or_insert_with(|| {
-            let model = LateralModel::new(case);
-            let tangents = constants
-                .as_ref()
-                .map(|constants| constants.lateral(&model));
-            (model, tangents.unwrap_or_default())
-        });
-        if self.poles.is_none() {
-            let poles = Poles::at(&model.forced.system, case.service.speed);
-            self.poles = Some(poles.map_err(|_| Failure::Eigenvalues)?);
-        }
-        let poles = self.poles.as_ref().ok_or(Failure::Eigenvalues)?;
-        Ok((model, tangents, poles))
-    }
-
-    /// The vertical model, its poles, and its derivatives if gradients are asked for.
-    fn vertical(&mut self) -> Result<&(VerticalModel, Poles, Vec<ForcedTangent>), Failure> {
-        if self.vertical.is_none() {
+    fn model(&mut self) -> Result<&(VerticalModel, Poles, Vec<ForcedTangent>), Failure> {
+        if self.model.is_none() {
             let model = VerticalModel::new(self.case);
             let poles = Poles::at(&model.forced.system, self.case.service.speed)
                 .map_err(|_| Failure::Eigenvalues)?;
-            let constants = self.constants.as_ref();
-            let tangents = constants.map(|constants| constants.vertical(&model));
-            self.vertical = Some((model, poles, tangents.unwrap_or_default()));
+            let tangents = self.constants.map(|constants| constants.vertical(&model));
+            self.model = Some((model, poles, tangents.unwrap_or_default()));
         }
-        self.vertical.as_ref().ok_or(Failure::Eigenvalues)
+        self.model.as_ref().ok_or(Failure::Eigenvalues)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Ride and strokes.
 
-use super::{BANDS, Models, no_ride, pieces};
+use super::{BANDS, Lateral, Measured, Vertical, no_ride, pieces};
 use crate::{
     evaluate::{
         limits::PEAK,
@@ -12,9 +12,7 @@ use crate::{
 };
 
 /// A ride and its derivatives by each constant.
-type Graded<T> = (T, Vec<T>);
-pub(super) type Lateral = Graded<LateralRide>;
-pub(super) type Vertical = Graded<VerticalRide>;
+pub(super) type Graded<T> = (T, Vec<T>);
 
 /// Pieces of what is made of a ride; linear in its values, so that it takes derivatives too.
 fn made_of<T>(
@@ -30,24 +28,29 @@ fn peaks(rms: &[f64]) -> Vec<f64> {
     rms.iter().map(|value| PEAK * value).collect()
 }
 
-impl Models<'_> {
-    pub(super) fn lateral_ride(&mut self, index: Index) -> Result<Vec<Piece>, Failure> {
-        let (case, graded) = (self.case, self.constants.is_some());
+impl Lateral<'_> {
+    /// An index of the ride, which is computed when first asked for.
+    pub(super) fn ride(&self, index: Index, ride: &mut Option<Graded<LateralRide>>) -> Measured {
+        let Self {
+            case,
+            model,
+            poles,
+            tangents,
+            graded,
+        } = self;
         let failed = |reason| no_ride(reason, Failure::Unstable);
         if index == Index::LateralIsoRatio {
-            let (model, tangents, poles) = self.with_tangents()?;
             let passengers = PassengerRide::lateral_with_derivatives(model, case, poles, tangents);
             return passengers
                 .map(|(now, by)| iso_ratios(&now, graded.then_some(&by)))
                 .map_err(failed);
         }
-        if self.lateral_ride.is_none() {
-            let (model, tangents, poles) = self.with_tangents()?;
-            let ride = LateralRide::with_derivatives(model, case, poles, tangents);
-            self.lateral_ride = Some(ride.map_err(failed)?);
+        if ride.is_none() {
+            let found = LateralRide::with_derivatives(model, case, poles, tangents);
+            *ride = Some(found.map_err(failed)?);
         }
-        let ride = self.lateral_ride.as_ref().ok_or(Failure::Integration)?;
-        Ok(made_of(ride, graded, |ride| match index {
+        let ride = ride.as_ref().ok_or(Failure::Integration)?;
+        Ok(made_of(ride, *graded, |ride| match index {
             Index::LateralAcceleration => vec![average(&ride.acceleration)],
             Index::SecondaryLateralStroke => peaks(&ride.secondary_stroke),
             Index::PrimaryLateralStroke => peaks(&ride.primary_stroke),
@@ -55,23 +58,25 @@ impl Models<'_> {
             _ => peaks(&ride.excursion),
         }))
     }
+}
 
-    pub(super) fn vertical_ride(&mut self, index: Index) -> Result<Vec<Piece>, Failure> {
+impl Vertical<'_> {
+    pub(super) fn ride(&mut self, index: Index) -> Measured {
         let (case, graded) = (self.case, self.constants.is_some());
         let failed = |reason| no_ride(reason, Failure::Diverging);
         if index == Index::VerticalIsoRatio {
-            let (model, poles, tangents) = self.vertical()?;
+            let (model, poles, tangents) = self.model()?;
             let passengers = PassengerRide::vertical_with_derivatives(model, case, poles, tangents);
             return passengers
                 .map(|(now, by)| iso_ratios(&now, graded.then_some(&by)))
                 .map_err(failed);
         }
-        if self.vertical_ride.is_none() {
-            let (model, poles, tangents) = self.vertical()?;
+        if self.ride.is_none() {
+            let (model, poles, tangents) = self.model()?;
             let ride = VerticalRide::with_derivatives(model, case, poles, tangents);
-            self.vertical_ride = Some(ride.map_err(failed)?);
+            self.ride = Some(ride.map_err(failed)?);
         }
-        let ride = self.vertical_ride.as_ref().ok_or(Failure::Integration)?;
+        let ride = self.ride.as_ref().ok_or(Failure::Integration)?;
         let load = case.vehicle.wheel_load();
         Ok(made_of(ride, graded, |ride| match index {
             Index::VerticalAcceleration => vec![average(&ride.acceleration)],

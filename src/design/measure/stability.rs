@@ -1,6 +1,6 @@
 //! Critical speed and damping.
 
-use super::Models;
+use super::{Lateral, Measured, Wanted};
 use crate::{
     dynamics::{ForcedTangent, LateralModel},
     evaluate::{
@@ -19,15 +19,32 @@ const NEARBY: f64 = 1.5;
 /// Share of the speed up to which damping is looked at where the range begins at the latest.
 const START: f64 = 0.5;
 
-impl Models<'_> {
+impl Lateral<'_> {
+    pub(super) fn stability(&self, wanted: Wanted) -> Measured {
+        match wanted {
+            Wanted::DampingTo { speed, below } => self.damping_to(speed, below),
+            Wanted::Index(Index::CriticalSpeed) => self.onsets(),
+            Wanted::Index(Index::LeastDampingRatioToSpeed) => {
+                let mut pieces = self.damping_to(self.case.service.speed, f64::INFINITY)?;
+                // The operating speed is given.
+                for gradient in pieces
+                    .iter_mut()
+                    .filter_map(|piece| piece.gradient.as_mut())
+                {
+                    gradient.pop();
+                }
+                Ok(pieces)
+            }
+            Wanted::Index(index) => self.damping_at_speed(index == Index::KinematicDampingRatio),
+        }
+    }
+
     /// Least damping ratios between the start of the range and a speed; behind the constants their
     /// gradients have the slope over that speed.
-    pub(super) fn damping_to(&mut self, speed: f64, below: f64) -> Result<Vec<Piece>, Failure> {
+    fn damping_to(&self, speed: f64, below: f64) -> Measured {
         let lowest = self.case.model.speed_range[0];
-        let graded = self.constants.is_some();
-        let (model, tangents, poles) = self.with_tangents()?;
         let start = lowest.min(START * speed);
-        let range = DampingRange::new(model, poles, [start, speed], below)
+        let range = DampingRange::new(&self.model, &self.poles, [start, speed], below)
             .map_err(|_| Failure::Eigenvalues)?;
         if range.diverges {
             return Err(Failure::Diverging);
@@ -35,58 +52,39 @@ impl Models<'_> {
         if range.minima.is_empty() {
             return Err(Failure::NoMode);
         }
-        let pieces = range.minima.iter().map(|minimum| Piece {
-            value: minimum.damping_ratio,
-            index: match minimum.place {
-                Place::Top => 0,
-                Place::Inside => 1,
-                Place::Bottom => 2,
-            },
-            label: minimum.frequency.ln(),
-            gradient: graded
-                .then(|| {
-                    // How the speed of the minimum goes with the speed asked for: inside the range
-                    // not at all to first order.
-                    let moves = match minimum.place {
-                        Place::Top => 1.0,
-                        Place::Bottom if start < lowest => START,
-                        _ => 0.0,
-                    };
-                    minimum_gradient(model, tangents, minimum, moves)
-                })
-                .flatten(),
+        let pieces = range.minima.iter().map(|minimum| {
+            // How the speed of the minimum goes with the speed asked for: inside the range not at
+            // all to first order.
+            let moves = match minimum.place {
+                Place::Top => 1.0,
+                Place::Bottom if start < lowest => START,
+                _ => 0.0,
+            };
+            let gradient = || minimum_gradient(&self.model, &self.tangents, minimum, moves);
+            Piece {
+                value: minimum.damping_ratio,
+                index: match minimum.place {
+                    Place::Top => 0,
+                    Place::Inside => 1,
+                    Place::Bottom => 2,
+                },
+                label: minimum.frequency.ln(),
+                gradient: self.graded.then(gradient).flatten(),
+            }
         });
         Ok(pieces.collect())
     }
 
-    pub(super) fn stability(&mut self, index: Index) -> Result<Vec<Piece>, Failure> {
-        let speed = self.case.service.speed;
-        match index {
-            Index::CriticalSpeed => self.onsets(),
-            Index::LeastDampingRatioToSpeed => {
-                let mut pieces = self.damping_to(speed, f64::INFINITY)?;
-                // The operating speed is given.
-                for piece in &mut pieces {
-                    if let Some(gradient) = &mut piece.gradient {
-                        gradient.pop();
-                    }
-                }
-                Ok(pieces)
-            }
-            _ => self.damping_at_speed(index == Index::KinematicDampingRatio),
-        }
-    }
-
-    fn damping_at_speed(&mut self, kinematic_only: bool) -> Result<Vec<Piece>, Failure> {
-        let (case, graded) = (self.case, self.constants.is_some());
-        if self.modes.is_none() {
-            let (model, poles) = self.with_poles()?;
-            let modes = LateralModes::new(model, case, poles).map_err(|_| Failure::Eigenvalues)?;
-            self.modes = Some(modes);
-        }
-        let modes = self.modes.take().ok_or(Failure::Eigenvalues)?;
-        let (model, tangents, _) = self.with_tangents()?;
-        let system = &model.forced.system;
+    fn damping_at_speed(&self, kinematic_only: bool) -> Measured {
+        let modes = LateralModes::new(&self.model, self.case, &self.poles)
+            .map_err(|_| Failure::Eigenvalues)?;
+        let system = &self.model.forced.system;
+        let gradient = |mode: &Mode| -> Vec<f64> {
+            let speed = self.case.service.speed;
+            let changes = modes::by_constants(system, &self.tangents, speed, mode);
+            let of = |change| modes::damping_ratio(mode.eigenvalue, change);
+            changes.into_iter().map(of).collect()
+        };
         let wanted = modes.oscillatory.iter();
         let pieces: Vec<Piece> = wanted
             .filter(|m| !kinematic_only || m.shape == LateralShape::Kinematic)
@@ -94,15 +92,9 @@ impl Models<'_> {
                 value: m.damping_ratio,
                 index: 0,
                 label: m.frequency.ln(),
-                gradient: graded.then(|| {
-                    let changes =
-                        modes::by_constants(system, tangents, case.service.speed, &m.mode);
-                    let of = |change| modes::damping_ratio(m.mode.eigenvalue, change);
-                    changes.into_iter().map(of).collect()
-                }),
+                gradient: self.graded.then(|| gradient(&m.mode)),
             })
             .collect();
-        self.modes = Some(modes);
         if pieces.is_empty() {
             return Err(Failure::NoMode);
         }
@@ -110,24 +102,22 @@ impl Models<'_> {
     }
 
     /// Speeds at which modes lose their damping; the end of the range where none does.
-    fn onsets(&mut self) -> Result<Vec<Piece>, Failure> {
+    fn onsets(&self) -> Measured {
         let range = self.case.model.speed_range;
-        let graded = self.constants.is_some();
-        let (model, tangents, poles) = self.with_tangents()?;
         // Onsets far above the lowest cannot matter near this design.
-        let stability = Stability::new(model, poles, range, NEARBY);
+        let stability = Stability::new(&self.model, &self.poles, range, NEARBY);
         let stability = stability.map_err(|_| Failure::Eigenvalues)?;
         if stability.divergence.is_some() {
             return Err(Failure::Diverging);
         }
         if stability.unstable_at_start || stability.onsets.is_empty() {
             let bound = stability.critical_speed().unwrap_or(range[1]);
-            let gradient = graded.then(|| vec![0.0; tangents.len()]);
             return Ok(vec![Piece {
-                gradient,
+                gradient: self.graded.then(|| vec![0.0; self.tangents.len()]),
                 ..Piece::single(0, bound)
             }]);
         }
+        let system = &self.model.forced.system;
         let lowest = stability.onsets[0].speed;
         let near = stability
             .onsets
@@ -138,8 +128,9 @@ impl Models<'_> {
                 value: onset.speed,
                 index: 1,
                 label: onset.frequency.ln(),
-                gradient: graded
-                    .then(|| modes::critical_speed(&model.forced.system, tangents, onset)),
+                gradient: self
+                    .graded
+                    .then(|| modes::critical_speed(system, &self.tangents, onset)),
             })
             .collect())
     }

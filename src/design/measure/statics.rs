@@ -1,6 +1,6 @@
 //! Indices from closed forms and from the modes of the vertical model.
 
-use super::{Models, pieces};
+use super::{Measured, Vertical, pieces};
 use crate::{
     case::Case,
     dynamics::{Poles, VerticalModel},
@@ -21,15 +21,15 @@ use crate::{
 /// 1e-11 of a closed form's, whose fifth derivative and rounding are of order one and 1e-16.
 const STEP: f64 = 1e-3;
 
-impl Models<'_> {
-    pub(super) fn statics(&mut self, index: Index) -> Result<Vec<Piece>, Failure> {
+impl Vertical<'_> {
+    pub(super) fn statics(&mut self, index: Index) -> Measured {
         let mut found = if index == Index::FlexibleModeSeparation {
-            let (model, poles, _) = self.vertical()?;
+            let (model, poles, _) = self.model()?;
             flexible_modes(model, poles)?
         } else {
             closed_form(index, self.case)
         };
-        let Some(constants) = &self.constants else {
+        let Some(constants) = self.constants else {
             return Ok(found);
         };
         let by: Vec<Option<Vec<f64>>> = constants

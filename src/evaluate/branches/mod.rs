@@ -18,4 +18,4 @@ mod track;
 pub use events::{Event, Sought};
 pub use pairs::{Known, Pairs, Refiner};
 pub use sector::modes_below;
-pub use track::{Branches, COMPLETE, Search, Walked};
+pub use track::{Branches, COMPLETE, Care, Search, Walked};

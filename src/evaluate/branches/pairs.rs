@@ -153,7 +153,7 @@ pub(super) const SETTLED: f64 = 1e-6;
 const ALIKE: f64 = 0.98;
 /// And above which they have something in common: those of different modes are nearly orthogonal
 /// where these are not about to meet.
-const RELATED: f64 = 0.7;
+const RELATED: f64 = 0.8;
 /// Steps allowed.
 const STEPS: usize = 6;
 

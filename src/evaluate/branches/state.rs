@@ -102,10 +102,14 @@ impl State {
     /// Whether a mode has come to one before it: eigenvalues may be close, as those of the two
     /// trucks are, but not the shapes too.
     pub fn repeats(&self, l: usize) -> bool {
-        let s = self.known(l).s;
-        let close = |b: usize| (self.known(b).s - s).norm_sqr() < (CLOSE * s.norm()).powi(2);
-        self.living()
-            .take_while(|&b| b < l)
-            .any(|b| close(b) && Pairs::alike((&self.pairs, b), (&self.pairs, l)))
+        let mut before = self.living().take_while(|&b| b < l);
+        before.any(|b| Self::same((self, b), (self, l)))
+    }
+
+    /// Whether two modes at one speed are the same.
+    pub fn same((a, i): (&Self, usize), (b, j): (&Self, usize)) -> bool {
+        let (s, other) = (a.known(i).s, b.known(j).s);
+        (other - s).norm_sqr() < (CLOSE * s.norm()).powi(2)
+            && Pairs::alike((&a.pairs, i), (&b.pairs, j))
     }
 }

@@ -53,28 +53,47 @@ pub struct Search {
     pub events: Vec<Event>,
 }
 
-/// With a share of one, brief instabilities have been passed over.
-const SURPRISE: [f64; 2] = [0.2, 0.003];
+/// How close to its expectation a mode must be found: usually, and where the modes could not be told
+/// apart so. With a share of one, brief instabilities have been passed over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Care {
+    /// Long steps.
+    Usual,
+    /// Short ones.
+    Great,
+}
+
+impl Care {
+    /// In the order in which they are tried.
+    pub const BOTH: [Self; 2] = [Self::Usual, Self::Great];
+
+    const fn surprise(self) -> [f64; 2] {
+        match self {
+            Self::Usual => [0.2, 0.003],
+            Self::Great => [0.05, 0.001],
+        }
+    }
+}
 /// How far above the damping ratios of interest modes that cannot be told apart for a moment stay
 /// clear of these.
 const MARGIN: f64 = 0.02;
 
 impl Search {
     /// For onsets of instability.
-    pub fn onsets() -> Self {
-        Self::of(Sought::Onset, 0.0)
+    pub fn onsets(care: Care) -> Self {
+        Self::of(Sought::Onset, 0.0, care)
     }
 
     /// For minima of damping ratios below a value.
-    pub fn minima(below: f64) -> Self {
-        Self::of(Sought::Minimum, below)
+    pub fn minima(below: f64, care: Care) -> Self {
+        Self::of(Sought::Minimum, below, care)
     }
 
-    fn of(sought: Sought, below: f64) -> Self {
+    fn of(sought: Sought, below: f64, care: Care) -> Self {
         Self {
             sought: Some(sought),
             below,
-            surprise: SURPRISE,
+            surprise: care.surprise(),
             clear_of: below + MARGIN,
             events: Vec::new(),
         }
@@ -148,12 +167,17 @@ impl<'m> Branches<'m> {
                 return None;
             }
             let back = self.start.speed();
-            let back = self.follow(others, back, search, |_, _| false)?;
+            let mut back = self.follow(others, back, search, |_, _| false)?;
+            let used = back.used();
+            if used > 0 {
+                self.refiner.settle(&mut back.pairs, used, SETTLED);
+            }
             // Where one comes back to a mode that went all the way itself, the two were mixed up.
-            let own = self.start.living().filter(|l| alive[*l]);
-            let own: Vec<Complex<f64>> = own.map(|l| self.start.known(l).s).collect();
-            let is_own = |s: Complex<f64>| own.iter().any(|o| (o - s).norm() < SAME * s.norm());
-            if self.settled(back).iter().any(|known| is_own(known.s)) {
+            let is_own = |l: usize| {
+                let mut own = self.start.living().filter(|o| alive[*o]);
+                own.any(|o| State::same((&self.start, o), (&back, l)))
+            };
+            if back.living().any(is_own) {
                 return None;
             }
         }
@@ -247,7 +271,7 @@ impl<'m> Branches<'m> {
         }
         next.pairs.speed = [speed; LANES];
         // What is little damped does not become unworthy in a single step.
-        let was_strong = |l: usize| damping_ratio(now.known(l).s) > STRONG;
+        let was_strong = |l: usize| damping_ratio(now.known(l).s).abs() > STRONG;
         let leaves = |state: &State| {
             let mut living = state.living();
             living.any(|l| gone(state.known(l).s) && !was_strong(l))
