@@ -24,6 +24,8 @@ pub enum Command {
     Evaluate(Run),
     /// Find out which parameters and inputs matter to the performance, and which do not
     Sensitivity(Sensitivity),
+    /// Evaluate many designs, evenly spread over what the spec leaves open, line by line
+    Sweep(Sweep),
     /// Write a page with all results and charts of the design as it stands
     Report(Report),
     /// List the modes of vibration, and damping against speed
@@ -169,6 +171,64 @@ pub enum Method {
     Morris,
     /// Shares of the variance: slower, says how much each explains
     Sobol,
+}
+
+/// Options of `sweep`.
+#[derive(Debug, Args)]
+pub struct Sweep {
+    #[command(flatten)]
+    pub source: Source,
+
+    /// Number of designs
+    #[arg(long, value_name = "N", value_parser = designs)]
+    pub designs: usize,
+
+    /// Which designs: the same seed gives the same ones (default: that of [design] in the spec)
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+
+    /// Indices to evaluate, separated by commas (default: the report's, and those that the spec
+    /// asks for)
+    #[arg(long, value_name = "INDEX,…", value_delimiter = ',')]
+    pub indices: Vec<String>,
+
+    /// Form of the lines
+    #[arg(long, value_enum, default_value_t = Lines::Csv)]
+    pub format: Lines,
+
+    /// Write the lines into this folder instead of to standard output
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Go on where an earlier run into the same --out folder ended
+    #[arg(long, requires = "out")]
+    pub resume: bool,
+}
+
+/// As many designs as a file of lines is of use for.
+fn designs(text: &str) -> Result<usize, String> {
+    const MOST: usize = 1_000_000_000;
+    let count = text.parse().ok().filter(|n| (1..=MOST).contains(n));
+    count.ok_or_else(|| format!("expected a whole number from 1 to {MOST}"))
+}
+
+/// Form of results that come line by line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Lines {
+    /// SI, with the unit in every column's name
+    Csv,
+    /// The same as a JSON object a line
+    Json,
+}
+
+impl std::fmt::Display for Lines {
+    /// Name in options and of files.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Csv => "csv",
+            Self::Json => "json",
+        })
+    }
 }
 
 /// Form of a result that is a table.

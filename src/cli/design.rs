@@ -13,7 +13,7 @@ use bogie::{
     index::Index,
     optimize::{
         archive::Archive,
-        journal::{Header, Journal, JournalError},
+        journal::{Entry, Header, Journal, JournalError},
     },
     spec::FRONT_POINTS,
 };
@@ -144,7 +144,7 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
     })
 }
 
-fn indices(names: &[String]) -> Result<Vec<Index>, Failure> {
+pub(super) fn indices(names: &[String]) -> Result<Vec<Index>, Failure> {
     let mut indices = Vec::new();
     for name in names {
         let index = Index::named(name.trim()).ok_or_else(|| {
@@ -260,7 +260,22 @@ fn archive<'a>(
     };
     let command = header.digest.split(' ').next().unwrap_or_default();
     let path = folder.join(format!("{command}.journal"));
-    let cannot = |error: JournalError| match error {
+    let (journal, recorded) = journal(&path, header, search.resume)?;
+    Ok(archive.with_journal(journal, recorded))
+}
+
+/// A journal, new or to be gone on with.
+pub(super) fn journal(
+    path: &Path,
+    header: &Header,
+    resume: bool,
+) -> Result<(Journal, Vec<Entry>), Failure> {
+    let opened = if resume {
+        Journal::resume(path, header)
+    } else {
+        Journal::create(path, header).map(|journal| (journal, Vec::new()))
+    };
+    opened.map_err(|error| match error {
         JournalError::Io(error) => {
             Failure::Failed(format!("cannot write {}: {error}", path.display()))
         }
@@ -269,13 +284,7 @@ fn archive<'a>(
             "error: cannot resume from {}: {error}",
             path.display()
         )),
-    };
-    let (journal, recorded) = if search.resume {
-        Journal::resume(&path, header).map_err(cannot)?
-    } else {
-        (Journal::create(&path, header).map_err(cannot)?, Vec::new())
-    };
-    Ok(archive.with_journal(journal, recorded))
+    })
 }
 
 /// What a user should know of a run beside its result.

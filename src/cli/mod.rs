@@ -13,6 +13,7 @@ mod interrupt;
 mod output;
 mod progress;
 mod report;
+mod sweep;
 
 use std::process::ExitCode;
 
@@ -47,6 +48,7 @@ pub fn run() -> ExitCode {
         Command::Optimize(call) => design::optimize(call),
         Command::Pareto(call) => design::pareto(call),
         Command::Sensitivity(call) => design::sensitivity(call),
+        Command::Sweep(call) => sweep::sweep(call),
         Command::Evaluate(call) => commands::evaluate(call),
         Command::Report(call) => report::report(call),
         Command::Modes(call) => commands::modes(call),

@@ -3,7 +3,7 @@
 //! [`tasks`] turns a spec into studies; a [`study`] measures indices ([`measure`]) and judges them;
 //! [`search`](search()) solves it, [`explain`] puts the solution into an engineer's terms, [`procedure`]
 //! runs the report's trade-offs and the joint optimisation, [`conflict`] tells which demands stand
-//! against one another where they cannot all be met.
+//! against one another where they cannot all be met. A [`sweep`] measures many designs without a search.
 
 pub mod conflict;
 pub mod explain;
@@ -15,7 +15,9 @@ pub mod pareto;
 pub mod procedure;
 pub mod search;
 pub mod sensitivity;
+pub mod sequence;
 pub mod study;
+pub mod sweep;
 pub mod tasks;
 
 pub use search::search;

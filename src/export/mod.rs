@@ -15,6 +15,7 @@ pub mod pareto;
 pub mod psd;
 pub mod sensitivity;
 pub(crate) mod sheet;
+pub mod sweep;
 pub mod table;
 
 pub use evaluation_text::evaluation;

@@ -4,23 +4,19 @@
 //! factor alone were known; its total index is the share that would remain if all the others were
 //! known (Homma and Saltelli 1996).
 //!
-//! Points come from a Sobol' sequence with Owen's scrambling (`sobol_burley`: seeded, without
-//! dependencies, any point by its number). It covers the cube more evenly than random or Latin
-//! hypercube samples; its 24 bits a coordinate are ample.
+//! Points come from a scrambled Sobol' sequence, see [`Sequence`].
 
-use rand_chacha::{
-    ChaCha8Rng,
-    rand_core::{RngCore, SeedableRng},
-};
+use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 use rayon::prelude::*;
 
 use super::{
     random::below,
     runs::{self, Group, Outcome, Output, Watch},
 };
+use crate::design::sequence::{self, Sequence};
 
-/// Rows that the sequence has.
-pub const MAX_ROWS: usize = 1 << 16;
+/// Rows that one scrambling of the sequence has.
+pub const MAX_ROWS: usize = sequence::BLOCK;
 /// Resamples for the intervals: 25 lie beyond either end of a 95 % interval.
 const RESAMPLES: usize = 1000;
 /// An output whose standard deviation is below this, relative to its size where that is above 1,
@@ -96,10 +92,8 @@ where
     );
     let sequence = Sequence::new(settings.seed);
     let points = |row: usize| {
-        let a: Vec<f64> = (0..factors).map(|i| sequence.at(row, i)).collect();
-        let b: Vec<f64> = (0..factors)
-            .map(|i| sequence.at(row, factors + i))
-            .collect();
+        let mut a = sequence.point(row, 2 * factors);
+        let b = a.split_off(factors);
         let mut points = vec![a.clone(), b.clone()];
         for i in 0..factors {
             let mut mixed = a.clone();
@@ -152,35 +146,6 @@ where
         outputs: (0..outputs).map(output).collect(),
         rows: groups.len(),
     }
-}
-
-/// The scrambled sequence.
-struct Sequence {
-    seed: u32,
-}
-
-impl Sequence {
-    fn new(seed: u64) -> Self {
-        Self {
-            seed: ChaCha8Rng::seed_from_u64(seed).next_u32(),
-        }
-    }
-
-    /// Coordinate of a point. Beyond the dimensions that the sequence has, another one goes on.
-    fn at(&self, row: usize, dimension: usize) -> f64 {
-        const DIMENSIONS: usize = sobol_burley::NUM_DIMENSIONS as usize;
-        let further = low(dimension / DIMENSIONS);
-        let seed = self.seed.wrapping_add(further);
-        f64::from(sobol_burley::sample(
-            low(row),
-            low(dimension % DIMENSIONS),
-            seed,
-        ))
-    }
-}
-
-fn low(number: usize) -> u32 {
-    u32::try_from(number).unwrap_or(u32::MAX)
 }
 
 /// One row as far as one factor is concerned.
@@ -265,22 +230,6 @@ fn middle(mut values: Vec<f64>, value: f64) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// The sequence is balanced: 2^m points put one into each of 2^m equal intervals.
-    #[test]
-    fn the_sequence_covers_every_coordinate_evenly() {
-        let sequence = Sequence::new(7);
-        for dimension in [0, 1, 57, 255, 256, 300] {
-            let mut hit = [false; 64];
-            for row in 0..64 {
-                let x = 64.0 * sequence.at(row, dimension);
-                let cell = (0..64).find(|i| x < f64::from(*i) + 1.0).unwrap_or(63);
-                hit[usize::try_from(cell).unwrap()] = true;
-            }
-            assert!(hit.iter().all(|h| *h), "dimension {dimension}");
-        }
-        assert!((sequence.at(5, 3) - sequence.at(5, 259)).abs() > 0.0);
-    }
 
     #[test]
     fn a_constant_has_no_sensitivity() {

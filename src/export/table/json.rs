@@ -8,13 +8,20 @@ impl Table {
     /// As JSON: an array of rows, each an object with the columns' names as keys, in order.
     /// No value is `null`.
     pub fn json(&self) -> Value {
-        let row = |i: usize| -> Map<String, Value> {
-            self.columns
-                .iter()
-                .map(|(name, column)| (name.clone(), cell(column, i)))
-                .collect()
-        };
-        (0..self.rows()).map(row).collect()
+        (0..self.rows()).map(|i| self.row(i)).collect()
+    }
+
+    /// As JSON Lines: the objects of [`Self::json`], one a line.
+    pub fn json_lines(&self) -> String {
+        let line = |i| Value::Object(self.row(i)).to_string() + "\n";
+        (0..self.rows()).map(line).collect()
+    }
+
+    fn row(&self, i: usize) -> Map<String, Value> {
+        self.columns
+            .iter()
+            .map(|(name, column)| (name.clone(), cell(column, i)))
+            .collect()
     }
 }
 

@@ -1,0 +1,207 @@
+//! Many designs spread evenly over what a design may vary, each for what it is worth.
+//!
+//! The designs are a numbered sequence: number 1, 2, 3, … are the same however many are asked for,
+//! and on however many threads.
+
+use std::ops::Range;
+
+use super::{
+    explain::worst,
+    measure::{Wanted, measure_each},
+    search::falls_short,
+    sequence::Sequence,
+    study::Study,
+    tasks::Tasks,
+};
+use crate::{
+    case::Case,
+    index::{Demands, Index},
+    optimize::problem::{Failure, Piece, Problem},
+    parameter::Parameter,
+    spec::Spec,
+    track::MAX_DEGREE,
+};
+
+/// What is spread over, and what is measured.
+#[derive(Debug, Clone)]
+pub struct Sweep<'a> {
+    spec: &'a Spec,
+    indices: Vec<Index>,
+    /// One for each profile to choose from.
+    studies: Vec<Study>,
+    sequence: Sequence,
+    /// What is asked in the nominal condition and in the further ones.
+    demands: Vec<Demands>,
+    /// What is measured in each: the indices first.
+    wanted: Vec<Vec<Wanted>>,
+}
+
+/// One design.
+#[derive(Debug, Clone)]
+pub struct Design {
+    /// Its number, from 1.
+    pub number: usize,
+    /// The design.
+    pub case: Case,
+    /// Value of every index, SI, in the nominal condition, or why it has none.
+    pub values: Vec<Result<f64, NoValue>>,
+    /// Whether it meets all that is asked, in every condition; `None` where nothing is.
+    pub meets_all: Option<bool>,
+}
+
+/// Why a design has no value of an index.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum NoValue {
+    /// It has no such performance.
+    #[error(transparent)]
+    Failure(#[from] Failure),
+    /// Nothing hunts over the range of speeds searched; its end, m/s.
+    #[error("stable up to {0:.1} m/s")]
+    Stable(f64),
+    /// It hunts from the start of the range of speeds searched, m/s.
+    #[error("hunts already at {0:.1} m/s")]
+    Hunts(f64),
+    /// No curve is too tight.
+    #[error("not limited up to {MAX_DEGREE}°")]
+    Unlimited,
+}
+
+impl<'a> Sweep<'a> {
+    /// Designs of a spec with some of their indices; the seed decides which designs. `None` if the
+    /// spec leaves nothing open.
+    pub fn new(spec: &'a Spec, indices: &[Index], seed: u64) -> Option<Self> {
+        let tasks = Tasks::new(spec);
+        let studies: Vec<Study> = tasks
+            .profiles(&spec.case)
+            .iter()
+            .map(|conicity| {
+                let mut case = spec.case.clone();
+                case.wheel_rail.conicity = *conicity;
+                tasks.bare(&case, &Index::ALL)
+            })
+            .collect();
+        let demands: Vec<Demands> = std::iter::once(spec.demands.clone())
+            .chain(
+                spec.conditions
+                    .iter()
+                    .map(|condition| spec.demands.overridden(&condition.demands)),
+            )
+            .collect();
+        let wanted = demands.iter().enumerate().map(|(condition, demands)| {
+            let mut all = if condition == 0 {
+                indices.to_vec()
+            } else {
+                Vec::new()
+            };
+            all.extend(demands.iter().map(|demand| demand.index));
+            let mut once: Vec<Index> = Vec::new();
+            for index in all {
+                if !once.contains(&index) {
+                    once.push(index);
+                }
+            }
+            once.into_iter().map(Wanted::Index).collect()
+        });
+        let sweep = Self {
+            spec,
+            indices: indices.to_vec(),
+            sequence: Sequence::new(seed),
+            wanted: wanted.collect(),
+            demands,
+            studies,
+        };
+        (sweep.variables() > 0).then_some(sweep)
+    }
+
+    /// The indices.
+    pub fn indices(&self) -> &[Index] {
+        &self.indices
+    }
+
+    /// The parameters that the spec's `[design]` names, tied and fixed ones too.
+    pub fn parameters(&self) -> impl Iterator<Item = Parameter> {
+        self.spec.design.parameters.iter().map(|(p, _)| *p)
+    }
+
+    /// Whether anything is asked of a design.
+    pub fn asks(&self) -> bool {
+        self.demands
+            .iter()
+            .any(|demands| demands.iter().count() > 0)
+    }
+
+    /// Dimensions of the space of designs: variables, and the profile where there is a choice.
+    fn variables(&self) -> usize {
+        let choice = usize::from(self.studies.len() > 1);
+        self.studies[0].variables().len() + choice
+    }
+
+    /// Designs of some numbers, from 1.
+    pub fn designs(&self, numbers: Range<usize>) -> Vec<Design> {
+        numbers.map(|number| self.design(number)).collect()
+    }
+
+    /// Design of a number, from 1.
+    fn design(&self, number: usize) -> Design {
+        let mut x = self.sequence.point(number - 1, self.variables());
+        let profiles = self.studies.len();
+        let profile = if profiles > 1 {
+            let at = x.pop().unwrap_or_default();
+            // At least 0 and below the number of profiles.
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let profile = (at * profiles as f64) as usize;
+            profile.min(profiles - 1)
+        } else {
+            0
+        };
+        let study = &self.studies[profile];
+        let case = study.design(&x);
+        let mut values = Vec::new();
+        let mut meets = true;
+        for (condition, (demands, wanted)) in self.demands.iter().zip(&self.wanted).enumerate() {
+            if wanted.is_empty() {
+                continue;
+            }
+            let applied = study.in_condition(&case, condition);
+            let measured = measure_each(&applied, wanted);
+            let of = |index: Index| {
+                let at = wanted.iter().position(|w| *w == Wanted::Index(index));
+                at.map_or(Err(Failure::NoMode), |at| measured[at].clone())
+            };
+            if condition == 0 {
+                let value = |index: &Index| value(&applied, *index, &of(*index)?);
+                values = self.indices.iter().map(value).collect();
+            }
+            meets &= demands.iter().all(|demand| {
+                let reached = of(demand.index).ok();
+                let reached = reached.and_then(|pieces| worst(demand.index, &pieces));
+                reached.is_some_and(|reached| !falls_short(demand.index, demand.bound, reached))
+            });
+        }
+        Design {
+            number,
+            case,
+            values,
+            meets_all: self.asks().then_some(meets),
+        }
+    }
+}
+
+/// Value of an index from its pieces. What only bounds it is none.
+fn value(case: &Case, index: Index, pieces: &[Piece]) -> Result<f64, NoValue> {
+    let value = worst(index, pieces).ok_or(Failure::NoMode)?;
+    if !value.is_finite() {
+        return Err(Failure::NotFinite.into());
+    }
+    let [low, high] = case.model.speed_range;
+    match index {
+        Index::CriticalSpeed if value <= low => Err(NoValue::Hunts(low)),
+        Index::CriticalSpeed if value >= high => Err(NoValue::Stable(high)),
+        Index::DegreeCurve | Index::FlangeLimitedCurve | Index::SlipLimitedCurve
+            if value >= MAX_DEGREE.to_radians() =>
+        {
+            Err(NoValue::Unlimited)
+        }
+        _ => Ok(value),
+    }
+}
