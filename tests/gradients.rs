@@ -79,7 +79,8 @@ fn vehicles(seed: u64, count: usize, factor: f64) -> Vec<Case> {
         .collect()
 }
 
-/// 1e-6 of the largest derivative: what rounding of the speeds, 1e-12, leaves of their differences.
+/// 1e-5 of the largest derivative: speeds found by following the modes and by full spectra agree to 1e-9,
+/// which the step divides by 5e-4.
 #[test]
 fn critical_speeds() {
     let mut compared = 0;
@@ -112,7 +113,7 @@ fn critical_speeds() {
         let tangents = Constants::new(&case, &Parameter::TEN).lateral(&model);
         let exact = modes::critical_speed(&model.forced.system, &tangents, onset);
         let exact: Vec<Vec<f64>> = exact.into_iter().map(|d| vec![d]).collect();
-        compare("critical speed", &case, &exact, 1e-6, |case| {
+        compare("critical speed", &case, &exact, 1e-5, |case| {
             vec![speed(case).unwrap()]
         });
         compared += 1;

@@ -53,8 +53,9 @@ pub struct Stability {
     pub divergence: Option<f64>,
 }
 
-/// Share of the lowest onset's speed below it at which nothing must grow.
-const BEYOND: f64 = 1e-4;
+/// Shares of the lowest onset's speed below it at which nothing must grow: the first at which that can be
+/// told.
+const BEYOND: [f64; 2] = [1e-5, 1e-4];
 
 impl Crossing {
     /// A mode that loses its damping at `speed`, m/s.
@@ -182,5 +183,9 @@ fn stable_below_lowest(branches: &mut Branches<'_>, onsets: &[Event]) -> bool {
         .iter()
         .map(|event| &event.at)
         .min_by(|a, b| a.speed.total_cmp(&b.speed));
-    lowest.is_some_and(|at| branches.stable_at(at.speed * (1.0 - BEYOND), at.s - at.slope * BEYOND))
+    lowest.is_some_and(|at| {
+        let stable =
+            |beyond: f64| branches.stable_at(at.speed * (1.0 - beyond), at.s - at.slope * beyond);
+        BEYOND.into_iter().find_map(stable).unwrap_or(false)
+    })
 }

@@ -15,14 +15,19 @@ pub struct Mode {
     pub left: DVector<Complex<f64>>,
 }
 
+/// |s|, without the care that numbers near the ends of the range would need.
+pub(super) fn size(s: Complex<f64>) -> f64 {
+    s.norm_sqr().sqrt()
+}
+
 /// Frequency |s|/2π in Hz of an eigenvalue.
 pub fn frequency(s: Complex<f64>) -> f64 {
-    s.norm() / std::f64::consts::TAU
+    size(s) / std::f64::consts::TAU
 }
 
 /// Damping ratio −Re s/|s| of an eigenvalue.
 pub fn damping_ratio(s: Complex<f64>) -> f64 {
-    -s.re / s.norm()
+    -s.re / size(s)
 }
 
 /// Steps of inverse iteration: one is enough for an eigenvalue good to 1e-12, the second cleans.

@@ -1,14 +1,18 @@
 //! Over a place where modes cannot be told apart, by the spectrum beyond it.
+//!
+//! Where two modes meet, each goes as a square root of the speed, but their mean and the square of
+//! half their difference are analytic, and can be interpolated.
 
 use nalgebra::Complex;
 
 use super::{
-    events::find,
+    events::{Sought, find},
+    pairs::Known,
     state::{STRONG, State},
     track::{Branches, Search, take_nearest, worth_following},
 };
 use crate::{
-    dynamics::{Poles, elimination::LANES},
+    dynamics::{LinearSystem, Poles, elimination::LANES},
     evaluate::mode::damping_ratio,
 };
 
@@ -20,22 +24,29 @@ const CLEAR: f64 = 0.25;
 
 impl Branches<'_> {
     /// The modes beyond a place at which two come too close, where eigenvalues move as the square
-    /// root of the speed and cannot be interpolated. Those of which it is not clear which is which
-    /// must be damped by more than the search asks for on both sides, or the answer is `None`.
+    /// root of the speed. Those of which it is not clear which is which must be damped by more than the
+    /// search asks for on both sides, or be two that have nothing of what is sought between them.
     pub(super) fn jump(&mut self, now: &State, target: f64, search: &mut Search) -> Option<State> {
         let way = (target / now.speed()).ln();
         for width in WIDTHS.into_iter().filter(|width| *width < way.abs()) {
             let speed = now.speed() * width.copysign(way).exp();
             let poles = Poles::at(&self.model.forced.system, speed).ok()?;
-            let (values, clear) = matched(now, speed, worth_following(&poles));
+            let (values, mut clear) = matched(now, speed, worth_following(&poles));
             let Some(next) = State::of(&mut self.refiner, speed, values) else {
                 continue;
             };
             let uncertain = |state: &State, l: usize| {
                 state.alive[l] && !clear[l] && damping_ratio(state.known(l).s) < search.clear_of
             };
-            if (0..LANES).any(|l| uncertain(now, l) || uncertain(&next, l)) {
-                return None;
+            let lanes: Vec<usize> = (0..LANES)
+                .filter(|&l| uncertain(now, l) || uncertain(&next, l))
+                .collect();
+            for lane in lanes {
+                let (other, twins) = Twins::of(now, &next, lane)?;
+                if !twins.are_quiet(search) || !twins.hold(&self.model.forced.system) {
+                    return None;
+                }
+                clear[other] = false;
             }
             let mut before = now.clone();
             before.bury(|_, l| !clear[l]);
@@ -44,6 +55,102 @@ impl Branches<'_> {
         }
         None
     }
+}
+
+/// Two modes that meet between two speeds, as mean and square of half their difference.
+struct Twins {
+    speeds: [f64; 2],
+    mean: [Complex<f64>; 4],
+    square: [Complex<f64>; 4],
+}
+
+/// Damping ratio within which the interpolation must agree with the spectrum in the middle, and by
+/// which what is sought must be missed.
+const ERROR: f64 = 1e-3;
+const MISSED: f64 = 3.0 * ERROR;
+/// A dip below both ends by less than this is none.
+const ROUNDING: f64 = 1e-9;
+/// Places looked at in between.
+const PLACES: usize = 32;
+
+impl Twins {
+    /// The mode in a lane and that nearest to it, in the same lane on both sides.
+    fn of(before: &State, after: &State, lane: usize) -> Option<(usize, Self)> {
+        let nearest = |state: &State| {
+            let apart = |l: usize| (state.known(l).s - state.known(lane).s).norm_sqr();
+            let others = state.living().filter(|&l| l != lane);
+            others.min_by(|&a, &b| apart(a).total_cmp(&apart(b)))
+        };
+        let other = nearest(before)?;
+        if nearest(after) != Some(other) || !before.alive[lane] || !after.alive[lane] {
+            return None;
+        }
+        let [a, b] = [before, after].map(|state| [state.known(lane), state.known(other)]);
+        let h = (b[0].speed / a[0].speed).ln();
+        let mean = |pair: [Known; 2]| {
+            let [one, two] = pair;
+            [(one.s + two.s) / 2.0, (one.slope + two.slope) * (h / 2.0)]
+        };
+        let square = |pair: [Known; 2]| {
+            let [one, two] = pair;
+            let half = (one.s - two.s) / 2.0;
+            [half * half, half * (one.slope - two.slope) * h]
+        };
+        let twins = Self {
+            speeds: [a[0].speed, b[0].speed],
+            mean: cubic(mean(a), mean(b)),
+            square: cubic(square(a), square(b)),
+        };
+        Some((other, twins))
+    }
+
+    /// Both at a share t of the way.
+    fn at(&self, t: f64) -> [Complex<f64>; 2] {
+        let value = |c: &[Complex<f64>; 4]| c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+        let (mean, half) = (value(&self.mean), value(&self.square).sqrt());
+        [mean + half, mean - half]
+    }
+
+    /// Whether nothing that is sought lies between the two speeds.
+    fn are_quiet(&self, search: &Search) -> bool {
+        let ratios = |k: usize| {
+            let mut ratios = self.at(k as f64 / PLACES as f64).map(damping_ratio);
+            ratios.sort_by(f64::total_cmp);
+            ratios
+        };
+        let all: Vec<[f64; 2]> = (0..=PLACES).map(ratios).collect();
+        let quiet = |of: usize| {
+            let values = all.iter().map(|ratios| ratios[of]);
+            let least = values.clone().fold(f64::INFINITY, f64::min);
+            let most = values.fold(f64::NEG_INFINITY, f64::max);
+            let ends = all[0][of].min(all[PLACES][of]);
+            match search.sought {
+                None => true,
+                Some(Sought::Onset) => least > MISSED || most < -MISSED,
+                Some(Sought::Minimum) => least > search.below + MISSED || least >= ends - ROUNDING,
+            }
+        };
+        quiet(0) && quiet(1)
+    }
+
+    /// Whether the spectrum in the middle has them where they are expected.
+    fn hold(&self, system: &LinearSystem) -> bool {
+        let [low, high] = self.speeds;
+        let Ok(poles) = Poles::at(system, (low * high).sqrt()) else {
+            return false;
+        };
+        let mut values: Vec<Complex<f64>> = poles.oscillatory().collect();
+        let expected = self.at(0.5).into_iter();
+        expected
+            .map(|s| take_nearest(&mut values, s, ERROR * s.norm()))
+            .all(|found| found.is_some())
+    }
+}
+
+/// Coefficients of the cubic over 0…1 with values and slopes at both ends.
+fn cubic([a, da]: [Complex<f64>; 2], [b, db]: [Complex<f64>; 2]) -> [Complex<f64>; 4] {
+    let change = b - a;
+    [a, da, 3.0 * change - 2.0 * da - db, da + db - 2.0 * change]
 }
 
 /// Eigenvalues in the lanes of the modes that they continue, those that continue none in the lanes

@@ -71,6 +71,18 @@ impl Pairs {
         }
     }
 
+    /// Takes what another holds, in the room that is there.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.s = other.s;
+        self.speed = other.speed;
+        self.slope = other.slope;
+        self.change = other.change;
+        self.x.copy_from_slice(&other.x);
+        self.y.copy_from_slice(&other.y);
+        self.dx.copy_from_slice(&other.dx);
+        self.dy.copy_from_slice(&other.dy);
+    }
+
     /// Takes the pair in lane `from` of others into lane `to`.
     pub fn take(&mut self, to: usize, others: &Self, from: usize) {
         let copy = |into: &mut [Lanes], of: &[Lanes]| {

@@ -67,6 +67,12 @@ impl State {
         fine.then_some(state)
     }
 
+    /// Takes what another holds, in the room that is there.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.pairs.copy_from(&other.pairs);
+        self.alive = other.alive;
+    }
+
     pub fn known(&self, l: usize) -> Known {
         self.pairs.known(l)
     }

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     dynamics::{LateralModel, Poles, elimination::LANES},
-    evaluate::mode::damping_ratio,
+    evaluate::mode::{damping_ratio, size},
 };
 
 /// Modes more damped than this are not followed: pairs close to becoming two real roots.
@@ -19,6 +19,8 @@ const FOLLOWED: f64 = 0.6;
 const FIRST: f64 = 0.2;
 const LONGEST: f64 = 0.8;
 const SHORTEST: f64 = 5e-3;
+/// Share of a step at which it is tried again.
+const SHORTENED: f64 = 0.3;
 /// Relative change of s that ends the iteration on the way: the step itself leaves its cube.
 const LOOSE: f64 = 3e-3;
 /// Damping ratio below which all modes at the end of a walk are known for sure.
@@ -33,6 +35,8 @@ pub struct Branches<'m> {
     pub(super) model: &'m LateralModel,
     pub(super) refiner: Refiner,
     start: State,
+    /// Room for the next state.
+    spare: Option<State>,
     /// Real eigenvalues that grow, none or one: then at every speed, as det K is negative.
     growing: usize,
 }
@@ -123,6 +127,7 @@ impl<'m> Branches<'m> {
         let mut branches = Self {
             growing: growing.count(),
             start: State::new(&mut refiner, poles.speed, worth_following(poles))?,
+            spare: None,
             model,
             refiner,
         };
@@ -231,12 +236,21 @@ impl<'m> Branches<'m> {
             let advanced = self.advance(last.as_ref(), &now, to, search.surprise);
             // The error of the expectation goes with the third power of the step.
             let surprise = advanced.as_ref().map_or(f64::INFINITY, |(_, s)| *s);
-            length = step * (0.9 / surprise.cbrt()).clamp(0.3, 2.0);
+            length = step * (0.9 / surprise.cbrt()).clamp(SHORTENED, 2.0);
             length = length.min(LONGEST);
             match advanced {
                 Some((state, surprise)) if surprise <= 1.0 => {
-                    find(&mut self.refiner, &now, &state, search)?;
-                    last = Some(std::mem::replace(&mut now, state));
+                    let events = search.events.len();
+                    if find(&mut self.refiner, &now, &state, search).is_none() {
+                        // Closer by, two that are near each other can be told apart.
+                        search.events.truncate(events);
+                        length = SHORTENED * step;
+                        if length < SHORTEST {
+                            return None;
+                        }
+                        continue;
+                    }
+                    self.spare = last.replace(std::mem::replace(&mut now, state));
                 }
                 _ if length < SHORTEST => {
                     now = self.jump(&now, target, search)?;
@@ -261,7 +275,13 @@ impl<'m> Branches<'m> {
         speed: f64,
         [share, least]: [f64; 2],
     ) -> Option<(State, f64)> {
-        let mut next = now.clone();
+        let mut next = match self.spare.take() {
+            Some(mut spare) => {
+                spare.copy_from(now);
+                spare
+            }
+            None => now.clone(),
+        };
         let h = (speed / now.speed()).ln();
         for l in now.living() {
             let known = now.known(l);
@@ -298,20 +318,21 @@ impl<'m> Branches<'m> {
         let surprise = next.living().map(|l| {
             let s = next.known(l).s;
             let allowed = (share * damping_ratio(s).abs()).max(least);
-            (s - expected.lane(l)).norm() / (allowed * s.norm())
+            size(s - expected.lane(l)) / (allowed * size(s))
         });
         let surprise = surprise.fold(0.0, f64::max);
         fine.then_some((next, surprise))
     }
 
     /// Whether nothing grows at a speed, m/s, just below the onset of a mode, s = `known`: counted
-    /// anew, with the modes at the start as nothing but a hint where to take small steps.
-    pub fn stable_at(&mut self, speed: f64, known: Complex<f64>) -> bool {
+    /// anew, with the modes at the start as nothing but a hint where to take small steps. `None` if the
+    /// count is inconclusive.
+    pub fn stable_at(&mut self, speed: f64, known: Complex<f64>) -> Option<bool> {
         let mut hints: Vec<Complex<f64>> =
             self.start.living().map(|l| self.start.known(l).s).collect();
         hints.push(known);
         let counted = modes_below(&mut self.refiner, speed, 0.0, &hints);
-        counted.is_some_and(|counted| self.agrees(counted, 0))
+        counted.map(|counted| self.agrees(counted, 0))
     }
 
     /// Whether some modes are all that are little damped at a speed.
@@ -351,7 +372,7 @@ pub(super) fn take_nearest(
     to: Complex<f64>,
     within: f64,
 ) -> Option<Complex<f64>> {
-    let apart = |i: usize| (values[i] - to).norm();
+    let apart = |i: usize| size(values[i] - to);
     let nearest = (0..values.len()).min_by(|&a, &b| apart(a).total_cmp(&apart(b)));
     let nearest = nearest.filter(|&i| apart(i) < within)?;
     Some(values.swap_remove(nearest))
