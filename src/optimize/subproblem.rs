@@ -26,7 +26,7 @@ const PROGRAMS: usize = 12;
 /// Smallest curvature of H, per radius.
 const CURVATURE: f64 = 1e-6;
 /// Settling of the step, in radii.
-const SETTLED: f64 = 1e-9;
+const SETTLED: f64 = 1e-6;
 
 /// Solution of a subproblem.
 #[derive(Debug, Clone)]
