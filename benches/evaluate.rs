@@ -2,6 +2,7 @@
 
 use bogie::{
     case::Case,
+    design::measure::{Wanted, measure, measure_graded},
     dynamics::{LateralModel, Poles, VerticalModel},
     evaluate::{
         Evaluation,
@@ -9,6 +10,8 @@ use bogie::{
         curving::CurvingLimits,
         ride::{LateralRide, VerticalRide},
     },
+    index::Index,
+    parameter::Parameter,
 };
 use divan::{Bencher, black_box, counter::ItemsCount};
 use rayon::prelude::*;
@@ -112,11 +115,32 @@ fn vertical_ride(bencher: Bencher) {
     bencher.bench_local(|| VerticalRide::new(black_box(&model), &case));
 }
 
-/// Critical speed and degree curve of 20 × 20 designs in K_b and K_py on all cores: the work of a
-/// design chart.
+/// Critical speed, degree curves and both rides as the optimiser measures them.
+const INDICES: [Wanted; 4] = [
+    Wanted::Index(Index::CriticalSpeed),
+    Wanted::Index(Index::DegreeCurve),
+    Wanted::Index(Index::LateralAcceleration),
+    Wanted::Index(Index::VerticalAcceleration),
+];
+
 #[divan::bench]
-fn chart_grid(bencher: Bencher) {
-    const SIDE: u32 = 20;
+fn indices(bencher: Bencher) {
+    let case = Case::prototype();
+    bencher.bench_local(|| measure(black_box(&case), &INDICES));
+}
+
+/// The same with the derivatives by all ten constants of Table 4.1.1.
+#[divan::bench]
+fn indices_with_gradients(bencher: Bencher) {
+    let case = Case::prototype();
+    bencher.bench_local(|| measure_graded(black_box(&case), &INDICES, &Parameter::TEN));
+}
+
+/// Critical speed and degree curve of 100 × 100 designs in K_b and K_py, a tenth to ten times the
+/// prototype's: the work of a design chart.
+#[divan::bench(args = [1, 2], sample_count = 3, sample_size = 1)]
+fn chart_grid(bencher: Bencher, threads: usize) {
+    const SIDE: u32 = 100;
     let factor = |i: u32| 10_f64.powf(2.0 * f64::from(i) / f64::from(SIDE - 1) - 1.0);
     let designs: Vec<Case> = (0..SIDE * SIDE)
         .map(|k| {
@@ -127,11 +151,13 @@ fn chart_grid(bencher: Bencher) {
             case
         })
         .collect();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.expect("threads");
     bencher
         .counter(ItemsCount::new(designs.len()))
         .bench_local(|| {
             let evaluate = |case: &Case| (Stability::of(case), CurvingLimits::new(case, 0.0));
-            designs.par_iter().map(evaluate).collect::<Vec<_>>()
+            pool.install(|| designs.par_iter().map(evaluate).collect::<Vec<_>>())
         });
 }
 
