@@ -43,8 +43,13 @@ pub struct ForcedTangent {
 /// Sums of this share of their terms are rounding.
 const ROUNDING: f64 = 1e-11;
 
-/// Weighted sum, and zero where that is rounding.
-fn sum(terms: impl Iterator<Item = (f64, f64)>) -> f64 {
+/// Weighted sum of values, which is zero where all are the same, and where it is rounding.
+fn sum(terms: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
+    let mut values = terms.clone().map(|(_, value)| value.to_bits());
+    let first = values.next();
+    if values.all(|value| Some(value) == first) {
+        return 0.0;
+    }
     let (mut sum, mut size) = (0.0, 0.0_f64);
     for (weight, value) in terms {
         sum += weight * value;
@@ -58,22 +63,29 @@ fn sum(terms: impl Iterator<Item = (f64, f64)>) -> f64 {
 }
 
 impl SystemTangent {
-    /// Weighted sum of systems of one structure.
+    /// Weighted sum of systems of one structure, with weights that add up to zero.
     pub fn of(systems: &[(f64, &LinearSystem)]) -> Self {
-        let (rows, columns) = systems[0].1.stiffness.shape();
+        let rows = systems[0].1.stiffness.nrows();
+        let matrices: [Vec<(f64, &[f64])>; 4] = std::array::from_fn(|n| {
+            let weighted = systems.iter().map(|&(weight, system)| {
+                let [c0, c1, c2] = &system.damping;
+                let matrix = [&system.stiffness, c0, c1, c2][n];
+                (weight, matrix.as_slice())
+            });
+            weighted.collect()
+        });
         let mut entries = Vec::new();
-        for row in 0..rows {
-            for column in 0..columns {
-                let at = (row, column);
-                let k = sum(systems.iter().map(|(w, system)| (*w, system.stiffness[at])));
-                let c = std::array::from_fn(|n| {
-                    sum(systems
-                        .iter()
-                        .map(|(w, system)| (*w, system.damping[n][at])))
+        for at in 0..systems[0].1.stiffness.len() {
+            let [k, c0, c1, c2] = matrices
+                .each_ref()
+                .map(|matrix| sum(matrix.iter().map(|(w, values)| (*w, values[at]))));
+            if [k, c0, c1, c2].iter().any(|change| *change != 0.0) {
+                entries.push(TangentEntry {
+                    row: at % rows,
+                    column: at / rows,
+                    k,
+                    c: [c0, c1, c2],
                 });
-                if k != 0.0 || c.iter().any(|c| *c != 0.0) {
-                    entries.push(TangentEntry { row, column, k, c });
-                }
             }
         }
         Self { entries }
@@ -109,7 +121,7 @@ impl ForcedTangent {
         }
     }
 
-    /// Weighted sum of models of one structure.
+    /// Weighted sum of models of one structure, with weights that add up to zero.
     pub fn of(models: &[(f64, &ForcedModel)]) -> Self {
         let systems: Vec<(f64, &LinearSystem)> = models
             .iter()
