@@ -1,17 +1,21 @@
 //! A design study: parameters that may vary, indices to be as good as can be, and demands, over one
 //! or several operating conditions, as a problem for the optimiser.
 
-use super::measure::{Wanted, measure, measure_graded, piece_name};
 mod chain;
+mod problem;
+mod term;
 
-use chain::Chain;
+pub use term::{Role, Term};
+
+use super::measure::{Wanted, measure, piece_name};
+use term::DAMPING;
 
 use crate::{
     case::Case,
     index::{Index, Scale, Sense},
     optimize::{
         follow,
-        problem::{self, Detail, FEASIBLE, Failure, Key, Piece, Problem, Values, Variable},
+        problem::{self as optimiser, Failure, Piece, Variable},
     },
     parameter::Parameter,
     spec::{Condition, Interval},
@@ -32,39 +36,6 @@ pub enum Rule {
     },
 }
 
-/// What an index is to a study.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Role {
-    /// Part of objective number `group`: the worst of a group counts, the groups add up.
-    Objective {
-        /// Which.
-        group: usize,
-        /// Weight of its relative change.
-        weight: f64,
-        /// Value from which the change is counted, SI.
-        origin: f64,
-    },
-    /// Must keep a bound, SI.
-    Constraint {
-        /// Least or greatest value.
-        bound: f64,
-    },
-}
-
-/// An index in an operating condition, and what it is to the study.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Term {
-    /// Which condition.
-    pub condition: usize,
-    /// Which index.
-    pub index: Index,
-    /// What for.
-    pub role: Role,
-    /// Pieces that count; `None`: all.
-    pub only: Option<&'static [usize]>,
-    wanted: Wanted,
-}
-
 /// The study as a problem for the optimiser.
 #[derive(Debug, Clone)]
 pub struct Study {
@@ -81,13 +52,8 @@ pub struct Study {
 /// Pieces of one term, and the number of the piece that is the lifted speed itself.
 const PIECES: usize = 256;
 const SPEED: usize = PIECES - 1;
-/// A difference of damping ratio of 1/3 counts as much as a factor e: near the critical speed of
-/// passenger trucks that is about what doubling the speed costs.
-const DAMPING: f64 = 3.0;
 /// Damping ratios this far above what is asked hold nothing back.
 const AMPLE: f64 = 0.05;
-/// Share of a bound below which a value counts as that share.
-const LEAST: f64 = 1e-9;
 
 impl Study {
     /// A case in the nominal condition (number 0) and further ones, with nothing to vary yet.
@@ -121,7 +87,7 @@ impl Study {
             symbol: "V_cr",
             quantity: Quantity::Speed,
             bounds: self.base.model.speed_range,
-            scale: problem::Scale::Logarithmic,
+            scale: optimiser::Scale::Logarithmic,
         });
         Some(study)
     }
@@ -159,9 +125,9 @@ impl Study {
             quantity: parameter.quantity(),
             bounds: bounds.into(),
             scale: if logarithmic {
-                problem::Scale::Logarithmic
+                optimiser::Scale::Logarithmic
             } else {
-                problem::Scale::Linear
+                optimiser::Scale::Linear
             },
         });
         self
@@ -397,179 +363,5 @@ impl Study {
             (Scale::Logarithmic, Sense::AtLeast) => origin * (-worse).exp(),
             (Scale::Logarithmic, Sense::AtMost) => origin * worse.exp(),
         })
-    }
-}
-
-impl Term {
-    fn is_speed_objective(&self) -> bool {
-        self.index == Index::CriticalSpeed && matches!(self.role, Role::Objective { .. })
-    }
-
-    /// Derivative of [`Term::scaled`].
-    fn slope(&self, value: f64) -> f64 {
-        let worse = |origin: f64| match (self.index.scale(), self.index.sense()) {
-            (Scale::Linear, _) => -DAMPING,
-            _ if value / origin < LEAST => 0.0,
-            (Scale::Logarithmic, Sense::AtLeast) => -1.0 / value,
-            (Scale::Logarithmic, Sense::AtMost) => 1.0 / value,
-        };
-        match self.role {
-            Role::Objective { weight, origin, .. } => weight * worse(origin),
-            Role::Constraint { bound } => match self.wanted {
-                Wanted::DampingTo { .. } if self.index == Index::CriticalSpeed => -DAMPING,
-                _ => worse(bound),
-            },
-        }
-    }
-
-    fn scaled(&self, value: f64) -> f64 {
-        let worse_than = |origin: f64| match (self.index.scale(), self.index.sense()) {
-            (Scale::Linear, _) => DAMPING * (origin - value),
-            (Scale::Logarithmic, Sense::AtLeast) => -(value / origin).max(LEAST).ln(),
-            (Scale::Logarithmic, Sense::AtMost) => (value / origin).max(LEAST).ln(),
-        };
-        match self.role {
-            Role::Objective { weight, origin, .. } => weight * worse_than(origin),
-            Role::Constraint { bound } => {
-                // What the optimiser lets pass lies on the right side of the bound.
-                FEASIBLE
-                    + match self.wanted {
-                        Wanted::DampingTo { .. } if self.index == Index::CriticalSpeed => {
-                            -DAMPING * value
-                        }
-                        _ => worse_than(bound),
-                    }
-            }
-        }
-    }
-}
-
-impl Problem for Study {
-    fn variables(&self) -> &[Variable] {
-        &self.variables
-    }
-
-    fn piece_name(&self, index: usize) -> String {
-        let name = self.piece_words(index);
-        let term = &self.terms[self.term_of(index)];
-        match self.condition_name(term.condition) {
-            Some(condition) => format!("{name} ({condition})"),
-            None => name,
-        }
-    }
-
-    fn key(&self, x: &[f64]) -> Key {
-        let terms = self.terms.iter();
-        let lifted = if self.is_lifted { "lifted " } else { "" };
-        let what: Vec<String> = terms
-            .map(|t| match self.condition_name(t.condition) {
-                Some(name) => format!("{}/{name}", t.wanted),
-                None => t.wanted.to_string(),
-            })
-            .collect();
-        let case = self.design(x);
-        let mut at = Parameter::TEN.map(|p| p.get(&case)).to_vec();
-        at.extend(self.speed(x));
-        Key {
-            what: format!("{lifted}{}", what.join(" ")),
-            at,
-        }
-    }
-
-    fn has_gradients(&self) -> bool {
-        true
-    }
-
-    fn measure(&self, x: &[f64], detail: Detail) -> Result<Vec<Piece>, Failure> {
-        let case = self.design(x);
-        let mut measured = Vec::new();
-        for condition in 0..self.conditions.len() {
-            let numbered = self.terms.iter().enumerate();
-            let here: Vec<(usize, &Term)> =
-                numbered.filter(|(_, t)| t.condition == condition).collect();
-            if here.is_empty() {
-                continue;
-            }
-            let wanted: Vec<Wanted> = here
-                .iter()
-                .map(|(_, t)| match self.speed(x) {
-                    Some(speed) if t.is_speed_objective() => Wanted::DampingTo {
-                        speed,
-                        below: AMPLE,
-                    },
-                    _ => t.wanted,
-                })
-                .collect();
-            let case = self.in_condition(&case, condition);
-            let chain = match detail {
-                Detail::Values => None,
-                Detail::Gradients => Some(Chain::new(self, x, condition)),
-            };
-            let all = match &chain {
-                None => measure(&case, &wanted)?,
-                Some(chain) => measure_graded(&case, &wanted, &chain.constants)?,
-            };
-            for ((i, _), pieces) in here.iter().zip(all) {
-                let is_lifted = self.is_lifted && self.terms[*i].is_speed_objective();
-                measured.extend(pieces.into_iter().map(|p| {
-                    let gradient = p.gradient.as_ref().zip(chain.as_ref());
-                    Piece {
-                        index: i * PIECES + p.index,
-                        gradient: gradient.map(|(over, chain)| chain.gradient(over, is_lifted)),
-                        ..p
-                    }
-                }));
-                if let Some(speed) = self.speed(x).filter(|_| is_lifted) {
-                    measured.push(Piece {
-                        gradient: chain.as_ref().map(Chain::of_speed),
-                        ..Piece::single(i * PIECES + SPEED, speed)
-                    });
-                }
-            }
-        }
-        Ok(measured)
-    }
-
-    fn judge(&self, measured: &[Piece]) -> Values {
-        let groups = self.terms.iter().filter_map(|t| match t.role {
-            Role::Objective { group, .. } => Some(group + 1),
-            Role::Constraint { .. } => None,
-        });
-        let mut values = Values {
-            objectives: vec![Vec::new(); groups.max().unwrap_or(0)],
-            constraints: Vec::new(),
-        };
-        for piece in measured {
-            let term = &self.terms[self.term_of(piece.index)];
-            if term
-                .only
-                .is_some_and(|only| !only.contains(&(piece.index % PIECES)))
-            {
-                continue;
-            }
-            let damping =
-                self.is_lifted && term.is_speed_objective() && piece.index % PIECES != SPEED;
-            let (value, slope) = if damping {
-                (FEASIBLE - DAMPING * piece.value, -DAMPING)
-            } else {
-                (term.scaled(piece.value), term.slope(piece.value))
-            };
-            let gradient = piece.gradient.iter();
-            let scaled = Piece {
-                value,
-                index: piece.index,
-                label: piece.label,
-                gradient: gradient
-                    .map(|g| g.iter().map(|d| slope * d).collect())
-                    .next(),
-            };
-            match term.role {
-                Role::Objective { group, .. } if !damping => values.objectives[group].push(scaled),
-                _ => values.constraints.push(scaled),
-            }
-        }
-        // A group without pieces is no objective.
-        values.objectives.retain(|pieces| !pieces.is_empty());
-        values
     }
 }

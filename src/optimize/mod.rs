@@ -9,6 +9,7 @@
 
 pub mod archive;
 pub mod certificate;
+mod effort;
 mod evaluations;
 mod global;
 pub mod journal;
@@ -16,7 +17,9 @@ pub mod local;
 pub mod problem;
 mod secants;
 pub mod solve;
+mod start;
 mod subproblem;
 mod surrogate;
+mod violation;
 
 pub(crate) use surrogate::follow;

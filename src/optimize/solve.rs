@@ -1,17 +1,17 @@
 //! Global search, then local searches from the best designs met.
 
-use std::{
-    collections::{BTreeMap, VecDeque},
-    time::Instant,
-};
+use std::{collections::VecDeque, time::Instant};
+
+pub use super::{effort::Effort, start::Start};
 
 use super::{
-    archive::{Archive, Measured, Stop},
+    archive::{Archive, Stop},
     certificate::Certificate,
     evaluations::{Evaluations, near},
     global,
     local::{self, Found, Status},
-    problem::{Detail, Failure, Key, Piece, Point, Problem, Values, Variable},
+    problem::{Failure, Point, Problem, Values},
+    violation::least_violation,
 };
 
 /// What solving a problem gave.
@@ -29,99 +29,6 @@ pub struct Solved {
     pub ends: Vec<Vec<f64>>,
 }
 
-/// What a search has spent.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Effort {
-    /// Full-model evaluations; what the archive knew is not counted.
-    pub evaluations: usize,
-    /// Of which without a result, by reason.
-    pub failures: BTreeMap<Failure, usize>,
-    /// Local searches.
-    pub starts: usize,
-    /// How many of them came to the design that was returned.
-    pub agreed: usize,
-    /// Seconds.
-    pub seconds: f64,
-}
-
-impl Effort {
-    /// Adds another search's.
-    pub fn add(&mut self, other: &Self) {
-        self.evaluations += other.evaluations;
-        for (failure, count) in &other.failures {
-            *self.failures.entry(*failure).or_default() += count;
-        }
-        self.starts += other.starts;
-        self.agreed += other.agreed;
-        self.seconds += other.seconds;
-    }
-
-    /// Evaluations without a result.
-    pub fn failed(&self) -> usize {
-        self.failures.values().sum()
-    }
-}
-
-/// Where a search begins.
-#[derive(Debug, Clone)]
-pub struct Start {
-    /// Search everywhere with this seed; otherwise only from `designs`.
-    pub everywhere: Option<u64>,
-    /// Local searches that follow a global phase, beside one per variable.
-    pub starts: usize,
-    /// Designs worth a look, in scaled coordinates.
-    pub designs: Vec<Vec<f64>>,
-    /// Trust radius around these; a global phase sets its own.
-    pub radius: f64,
-    /// Objective that another problem has reached: one local search will do where this one has no
-    /// hope to beat it.
-    pub beat: f64,
-    /// Then not even one.
-    pub gives_up: bool,
-}
-
-impl Start {
-    /// Anywhere, with a seed.
-    pub fn everywhere(seed: u64) -> Self {
-        Self {
-            everywhere: Some(seed),
-            starts: STARTS,
-            designs: Vec::new(),
-            radius: local::WIDE,
-            beat: f64::INFINITY,
-            gives_up: false,
-        }
-    }
-
-    /// Near designs that were optimal for a slightly different problem.
-    pub fn near(designs: Vec<Vec<f64>>) -> Self {
-        Self {
-            everywhere: None,
-            starts: STARTS,
-            designs,
-            radius: local::NARROW,
-            beat: f64::INFINITY,
-            gives_up: false,
-        }
-    }
-
-    /// Searches locally from many of the designs that the global phase met.
-    #[must_use]
-    pub fn thoroughly(self) -> Self {
-        Self {
-            starts: MANY_STARTS,
-            ..self
-        }
-    }
-
-    /// Looks at these designs too.
-    #[must_use]
-    pub fn with(mut self, designs: Vec<Vec<f64>>) -> Self {
-        self.designs.extend(designs);
-        self
-    }
-}
-
 /// Not one design could be evaluated.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NoDesign {
@@ -133,10 +40,6 @@ pub enum NoDesign {
     Stopped(#[from] Stop),
 }
 
-/// Local searches that follow a global phase, unless told otherwise, and where an index has many
-/// local optima.
-const STARTS: usize = 2;
-const MANY_STARTS: usize = 8;
 /// What a local search may be hoped to gain per variable; a start further behind the best is left
 /// out.
 const PROMISE: f64 = 0.2;
@@ -394,72 +297,5 @@ fn improvement(from: &Point, to: &Point) -> f64 {
             (a.objective() - b.objective()).abs() + (a.violation() - b.violation()).abs()
         }
         _ => f64::INFINITY,
-    }
-}
-
-/// The constraints of a problem as its objective: what comes closest to meeting them.
-struct Violation<'a>(&'a dyn Problem);
-
-impl Problem for Violation<'_> {
-    fn variables(&self) -> &[Variable] {
-        self.0.variables()
-    }
-
-    fn piece_name(&self, index: usize) -> String {
-        self.0.piece_name(index)
-    }
-
-    fn key(&self, x: &[f64]) -> Key {
-        self.0.key(x)
-    }
-
-    fn measure(&self, x: &[f64], detail: Detail) -> Measured {
-        self.0.measure(x, detail)
-    }
-
-    fn has_gradients(&self) -> bool {
-        self.0.has_gradients()
-    }
-
-    fn judge(&self, measured: &[Piece]) -> Values {
-        Values {
-            objectives: vec![self.0.judge(measured).constraints],
-            constraints: Vec::new(),
-        }
-    }
-}
-
-/// Reduces the largest violation as far as it goes. The certificate is that of the reduction: its
-/// objective multipliers tell which constraints conflict.
-fn least_violation(problem: &dyn Problem, archive: &Archive, from: Found) -> Found {
-    let relaxed = Violation(problem);
-    let evaluations = Evaluations::new(&relaxed, archive);
-    let Ok(start) = evaluations.at(&from.point.x) else {
-        return from;
-    };
-    let found = local::search(&evaluations, start, local::WIDE, &[]);
-    let status = match found.status {
-        status @ (Status::BudgetSpent | Status::Interrupted) => status,
-        _ => Status::Infeasible,
-    };
-    let values = archive
-        .known(&problem.key(&found.point.x))
-        .map(|measured| measured.map(|pieces| problem.judge(&pieces)));
-    let point = Point {
-        x: found.point.x,
-        values: values.unwrap_or(Err(Failure::NotFinite)),
-    };
-    if point.feasible() {
-        // The reduction found what the search had missed: it goes on from there.
-        let evaluations = Evaluations::new(problem, archive);
-        return local::search(&evaluations, point, local::NARROW, &[]);
-    }
-    if from.point.better_than(&point) {
-        return from;
-    }
-    Found {
-        point,
-        status,
-        certificate: found.certificate,
     }
 }

@@ -4,8 +4,8 @@ use nalgebra::Complex;
 
 use super::{
     pairs::{Known, Pairs, Refiner, SETTLED},
+    search::Search,
     state::State,
-    track::Search,
 };
 use crate::{
     dynamics::elimination::{LANES, Lanes},

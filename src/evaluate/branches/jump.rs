@@ -8,8 +8,9 @@ use nalgebra::Complex;
 use super::{
     events::{Sought, find},
     pairs::Known,
+    search::Search,
     state::{STRONG, State},
-    track::{Branches, Search, take_nearest, worth_following},
+    track::{Branches, take_nearest, worth_following},
 };
 use crate::{
     dynamics::{LinearSystem, Poles, elimination::LANES},

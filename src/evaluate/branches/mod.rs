@@ -11,11 +11,13 @@
 mod events;
 mod jump;
 mod pairs;
+mod search;
 mod sector;
 mod state;
 mod track;
 
 pub use events::{Event, Sought};
 pub use pairs::{Known, Pairs, Refiner};
+pub use search::{Care, Search};
 pub use sector::modes_below;
-pub use track::{Branches, COMPLETE, Care, Search, Walked};
+pub use track::{Branches, COMPLETE, Walked};
