@@ -160,14 +160,14 @@ fn charts_answer_to_pointer_and_wheel() {
     let before = browser.run("return scrollY;").as_f64().unwrap();
     browser.wheel(at, 120);
     assert!(!has(&browser, &zoomed));
-    assert!(browser.run("return scrollY;").as_f64().unwrap() > before);
+    assert!(browser.until(&format!("scrollY > {before}")));
     let at = place(&browser, &format!("{chart} .mark"));
     browser.run(&format!(
         "document.querySelector('{chart} .plot').focus({{preventScroll: true}});"
     ));
     let before = browser.run("return scrollY;");
     browser.wheel(at, -400);
-    assert!(has(&browser, &zoomed));
+    assert!(browser.until(&format!("document.querySelector('{zoomed}')")));
     assert_eq!(browser.run("return scrollY;"), before);
     // What the pointer is at stays there, and its value with it.
     let still = place(&browser, &format!("{chart} .mark"));

@@ -111,6 +111,18 @@ impl Browser {
         self.post("/execute/sync", &json!({ "script": script, "args": [] }))
     }
 
+    /// Waits until a condition in the page holds; whether it does within five seconds. What the
+    /// compositor does, such as scrolling, reaches the page when it is next drawn.
+    pub fn until(&self, condition: &str) -> bool {
+        (0..100).any(|_| {
+            let holds = self.run(&format!("return Boolean({condition});")) == true;
+            if !holds {
+                std::thread::sleep(std::time::Duration::from_millis(50));
+            }
+            holds
+        })
+    }
+
     /// A command of the developer tools.
     pub fn tell(&self, command: &str, parameters: &Value) {
         let body = json!({ "cmd": command, "params": parameters });
