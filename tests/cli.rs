@@ -106,7 +106,7 @@ fn curve_at_a_given_degree_and_cant_deficiency() {
     assert!((value["radius_m"].as_f64().unwrap() - 582.2).abs() < 0.1);
     let (code, _, stderr) = output(&["curve", "problems/prototype.toml", "--degree", "40"]);
     assert_eq!(code, 2);
-    assert!(stderr.contains("at most 25"), "{stderr}");
+    assert!(stderr.contains("0.001 to 25"), "{stderr}");
 }
 
 #[test]
@@ -248,6 +248,38 @@ fn wrong_calls_exit_with_2() {
         let (code, stdout, stderr) = output(args);
         assert_eq!(code, 2, "{args:?}: {stderr}");
         assert!(stdout.is_empty() && !stderr.is_empty(), "{args:?}");
+    }
+}
+
+/// Numbers out of range are answered with the range.
+#[test]
+fn options_out_of_range() {
+    let spec = "problems/intercity-130mph.toml";
+    for (args, remedy) in [
+        (&["sweep", spec, "--designs", "0"][..], "from 1 to"),
+        (&["sweep", spec, "--designs", "-3"], "from 1 to"),
+        (&["pareto", spec, "--points", "1"], "expected 2 to 2000"),
+        (&["pareto", spec, "--budget", "0"], "not in 1.."),
+        (
+            &["sensitivity", spec, "--spread", "-1"],
+            "from 0 to below 1",
+        ),
+        (&["sensitivity", spec, "--samples", "1"], "not in 2.."),
+        (&["psd", spec, "--points", "-1"], "not in 2.."),
+        (&["curve", spec, "--degree", "-1"], "0.001 to 25"),
+        (&["curve", spec, "--degree", "nan"], "0.001 to 25"),
+        // A radius that no number holds.
+        (&["curve", spec, "--degree", "5e-324"], "0.001 to 25"),
+        (&["modes", spec, "--speeds", "0 mph"], "0.001 m/s to"),
+        (&["modes", spec, "--speeds", "1e300 mph"], "to 10000 m/s"),
+        (
+            &["modes", spec, "--speeds", "1e400 mph"],
+            "not a finite number",
+        ),
+    ] {
+        let (code, stdout, stderr) = output(args);
+        assert_eq!((code, stdout.as_str()), (2, ""), "{args:?}: {stderr}");
+        assert!(stderr.contains(remedy), "{args:?}: {stderr}");
     }
 }
 

@@ -103,6 +103,56 @@ fn a_reader_that_goes_away_is_no_failure() {
     assert_eq!(stderr(&output), "");
 }
 
+/// What goes to standard error is lost where nobody hears it; the work and its exit code are not.
+#[test]
+fn nobody_hears_the_messages() {
+    if !fs::exists("/dev/full").unwrap() {
+        eprintln!("skipped: there is no /dev/full");
+        return;
+    }
+    let spec = "problems/intercity-130mph.toml";
+    for (args, code) in [
+        (&["check", "problems/invalid/wrong-type.toml"][..], 2),
+        (&["evaluate", "problems/no-such-file.toml"], 2),
+        (&["evaluate", "problems/doubtful/hunts-at-speed.toml"], 0),
+        (&["evaluate", spec, "--out", "/dev/full"], 1),
+        // Ends early, and says so.
+        (&["pareto", spec, "--budget", "1"], 3),
+    ] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let mut call = bogie(args);
+        let status = call.stdout(Stdio::null()).stderr(full).status().unwrap();
+        assert_eq!(status.code(), Some(code), "{args:?}");
+        let mut child = bogie(args)
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stderr.take());
+        assert_eq!(child.wait().unwrap().code(), Some(code), "{args:?}");
+    }
+}
+
+/// A reader of the text that goes away does not keep the report from being written, nor does it change
+/// what the exit code says.
+#[test]
+fn the_report_is_written_whoever_reads_the_text() {
+    let folder = TempDir::new().unwrap();
+    let page = folder.path().join("page.html");
+    let spec = "problems/intercity-130mph.toml";
+    let page_name = page.display().to_string();
+    let mut child = bogie(&["optimize", spec, "--budget", "1", "--report", &page_name])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    // One evaluation does not meet the requirements.
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert!(page.exists());
+}
+
 /// A folder that cannot be, because a file is in its place, or that the system gives to nobody. A long
 /// search says so before it begins.
 #[test]
@@ -110,18 +160,36 @@ fn a_folder_that_cannot_be_written() {
     let folder = TempDir::new().unwrap();
     let file = folder.path().join("file");
     fs::write(&file, "kept").unwrap();
-    let mut places = vec![file.join("results").display().to_string()];
+    let mut places = vec![
+        file.display().to_string(),
+        file.join("results").display().to_string(),
+    ];
     if fs::exists("/proc/self").unwrap() {
         places.push("/proc/results".into());
     }
     for place in places {
-        for command in ["evaluate", "modes", "curve", "psd", "optimize", "pareto"] {
+        for command in [
+            &["evaluate"][..],
+            &["modes"],
+            &["curve"],
+            &["psd"],
+            &["optimize"],
+            &["pareto"],
+            &["sensitivity"],
+            &["sweep", "--designs", "1"],
+            &["chart", "4.6.1"],
+        ] {
             let spec = "problems/intercity-130mph.toml";
-            let output = bogie(&[command, spec, "--out", &place]).output().unwrap();
-            assert_eq!(output.status.code(), Some(1), "{command} into {place}");
+            let args = [&command[..1], &[spec], &command[1..], &["--out", &place]].concat();
+            let output = bogie(&args).output().unwrap();
+            assert_eq!(output.status.code(), Some(1), "{args:?}");
             let message = stderr(&output);
-            assert!(message.contains("cannot write"), "{command}: {message}");
-            assert!(message.contains(&place), "{command}: {message}");
+            assert!(message.contains("cannot write"), "{args:?}: {message}");
+            assert!(message.contains(&place), "{args:?}: {message}");
+            if !place.starts_with("/proc") {
+                let remedy = format!("{} is a file; name a folder", file.display());
+                assert!(message.contains(&remedy), "{args:?}: {message}");
+            }
         }
     }
     assert_eq!(fs::read_to_string(&file).unwrap(), "kept");

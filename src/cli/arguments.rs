@@ -81,6 +81,7 @@ pub struct Search {
 
 /// Options of `optimize`.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Optimize {
     #[command(flatten)]
     pub run: Run,
@@ -106,6 +107,7 @@ pub struct Report {
 
 /// Options of `pareto`.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Pareto {
     #[command(flatten)]
     pub source: Source,
@@ -133,6 +135,7 @@ pub struct Pareto {
 
 /// Options of `sensitivity`.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Sensitivity {
     #[command(flatten)]
     pub source: Source,
@@ -175,6 +178,7 @@ pub enum Method {
 
 /// Options of `sweep`.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Sweep {
     #[command(flatten)]
     pub source: Source,
@@ -268,6 +272,7 @@ pub struct Modes {
 
 /// Options of `curve`.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Curve {
     #[command(flatten)]
     pub run: Run,
@@ -288,6 +293,7 @@ pub struct Curve {
 
 /// Options of `psd`.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Psd {
     #[command(flatten)]
     pub run: Run,

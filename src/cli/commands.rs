@@ -1,5 +1,7 @@
 //! One function per command.
 
+use std::ops::RangeInclusive;
+
 use bogie::{
     evaluate::{Evaluation, ride::NoRide, warnings::warnings},
     export::{self, curve::Curving, evaluation_json, modes, psd::Spectra},
@@ -17,6 +19,11 @@ use super::{
 
 /// Program and version, in results and journals.
 pub(super) const PROGRAM: &str = concat!("bogie ", env!("CARGO_PKG_VERSION"));
+
+/// A curve of over 1700 km radius is a straight.
+const LEAST_DEGREE: f64 = 0.001;
+/// Speeds, m/s, at which the damping can be listed: any at which an eigenvalue is one.
+const SPEEDS: RangeInclusive<f64> = 1e-3..=1e4;
 
 pub fn evaluate(run: &Run) -> Result<Done, Failure> {
     let input::Named {
@@ -78,10 +85,10 @@ pub fn curve(call: &Curve) -> Result<Done, Failure> {
         ..
     } = input::read(&call.run.source.spec)?;
     if let Some(degree) = call.degree
-        && !(degree > 0.0 && degree <= MAX_DEGREE)
+        && !(LEAST_DEGREE..=MAX_DEGREE).contains(&degree)
     {
         return Err(wrong(&format!(
-            "--degree {degree}: expected more than 0 and at most {MAX_DEGREE}"
+            "--degree {degree}: expected {LEAST_DEGREE} to {MAX_DEGREE}"
         )));
     }
     let cant_deficiency = cant_deficiency(&call.cant_deficiency)?;
@@ -109,7 +116,7 @@ pub fn psd(call: &Psd) -> Result<Done, Failure> {
         ("vertical", &spectra.vertical),
     ] {
         if columns.is_none() {
-            eprintln!("no {model} spectra: {}", NoRide::Unstable);
+            output::say(format_args!("no {model} spectra: {}", NoRide::Unstable));
         }
     }
     if call.csv {
@@ -164,10 +171,9 @@ pub fn init(call: &Init) -> Result<Done, Failure> {
             call.spec.display()
         )));
     }
-    export::file::write(&call.spec, STARTER).map_err(|error| {
-        Failure::Failed(format!("cannot write {}: {error}", call.spec.display()))
-    })?;
-    eprintln!("wrote {}", call.spec.display());
+    export::file::write(&call.spec, STARTER)
+        .map_err(|error| output::cannot_write(&call.spec, &error))?;
+    output::say(format_args!("wrote {}", call.spec.display()));
     Ok(Done::Complete)
 }
 
@@ -215,11 +221,12 @@ fn speed(text: &str) -> Result<f64, Failure> {
     let speed = Quantity::Speed
         .parse(text)
         .map_err(|error| wrong(&format!("--speeds: {error}")))?;
-    if speed > 0.0 {
+    if SPEEDS.contains(&speed) {
         Ok(speed)
     } else {
+        let (least, most) = (SPEEDS.start(), SPEEDS.end());
         Err(wrong(&format!(
-            "--speeds {text}: expected a positive speed"
+            "--speeds {text}: expected {least} m/s to {most} m/s"
         )))
     }
 }

@@ -14,6 +14,7 @@ use bogie::{
     optimize::{
         archive::Archive,
         journal::{Entry, Header, Journal, JournalError},
+        solve::NoDesign,
     },
     spec::FRONT_POINTS,
 };
@@ -57,6 +58,10 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
             "error: {}: {error}",
             call.run.source.spec.display()
         )),
+        error @ DesignError::NothingEvaluated {
+            reason: NoDesign::Failed(_),
+            ..
+        } => nothing_evaluated(&error),
         error => failed(error),
     })?;
     let warnings = warnings(&result.case, &result.evaluation);
@@ -124,9 +129,12 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
     let front = pareto::pareto(&spec, &archive);
     progress.finish();
     tell(&archive);
-    let front = front.map_err(failed)?;
+    let front = front.map_err(|error| match error {
+        NoDesign::Failed(_) => nothing_evaluated(&error),
+        NoDesign::Stopped(_) => failed(error),
+    })?;
     if front.points.is_empty() && front.stopped.is_none() {
-        eprintln!("no design keeps the remaining requirements and limits: there is no front");
+        output::say("no design keeps the remaining requirements and limits: there is no front");
     }
     deliver_table(
         (call.format, call.out.as_deref(), "pareto"),
@@ -142,6 +150,14 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
     } else {
         Done::Complete
     })
+}
+
+/// Every design within the bounds is without a result.
+fn nothing_evaluated(error: &dyn std::fmt::Display) -> Failure {
+    failed(format_args!(
+        "{error}; `bogie evaluate` says more of the vehicle as given, `bogie sweep` of others within \
+         the bounds of [design]"
+    ))
 }
 
 pub(super) fn indices(names: &[String]) -> Result<Vec<Index>, Failure> {
@@ -194,6 +210,9 @@ pub fn sensitivity(call: &Sensitivity) -> Result<Done, Failure> {
         return Err(wrong(
             "nothing varies: open [design] or give a --spread above 0",
         ));
+    }
+    if let Some(folder) = &call.out {
+        output::ready(folder)?;
     }
     let progress = Line::new();
     let watch = Watch {
@@ -276,9 +295,7 @@ pub(super) fn journal(
         Journal::create(path, header).map(|journal| (journal, Vec::new()))
     };
     opened.map_err(|error| match error {
-        JournalError::Io(error) => {
-            Failure::Failed(format!("cannot write {}: {error}", path.display()))
-        }
+        JournalError::Io(error) => output::cannot_write(path, &error),
         JournalError::Busy => Failure::Failed(format!("{}: {error}", path.display())),
         JournalError::Foreign | JournalError::Missing => Failure::Invalid(format!(
             "error: cannot resume from {}: {error}",
@@ -290,9 +307,11 @@ pub(super) fn journal(
 /// What a user should know of a run beside its result.
 pub(super) fn tell(archive: &Archive) {
     if let Some(error) = archive.journal_error() {
-        eprintln!("warning: the journal could not be written ({error}): no --resume from here");
+        output::say(format_args!(
+            "warning: the journal could not be written ({error}): no --resume from here"
+        ));
     }
     if let Some(stop) = archive.stopped() {
-        eprintln!("ended early: {stop}");
+        output::say(format_args!("ended early: {stop}"));
     }
 }

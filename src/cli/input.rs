@@ -2,7 +2,7 @@
 
 use std::{
     borrow::Cow,
-    io::{IsTerminal, Read},
+    io::{ErrorKind, IsTerminal, Read},
     path::Path,
 };
 
@@ -10,7 +10,7 @@ use bogie::spec::{Diagnostics, Doubts, MAX_BYTES, Spec, printable};
 
 use sha2::{Digest, Sha256};
 
-use super::Failure;
+use super::{Failure, output};
 
 /// A spec with the name that results carry.
 pub struct Named {
@@ -66,7 +66,10 @@ impl File {
     /// Doubts on standard error.
     pub fn show(&self, doubts: &Doubts) {
         let colour = std::io::stderr().is_terminal();
-        eprint!("{}", doubts.render(&self.shown, &self.text(), colour));
+        let text = doubts.render(&self.shown, &self.text(), colour);
+        if !text.is_empty() {
+            output::say(text.trim_end_matches('\n'));
+        }
     }
 }
 
@@ -80,12 +83,14 @@ pub fn open(path: &Path) -> Result<File, Failure> {
         printable(&path.to_string_lossy())
     };
     let cannot = |error: std::io::Error| {
-        let help = if path.is_dir() {
-            " (it is a folder)"
+        let why = if path.is_dir() {
+            "it is a folder; name a spec file".into()
+        } else if error.kind() == ErrorKind::NotFound {
+            "there is no such file; `bogie init` writes a spec to start from".into()
         } else {
-            ""
+            error.to_string()
         };
-        Failure::Invalid(format!("error: cannot read {shown}: {error}{help}"))
+        Failure::Invalid(format!("error: cannot read {shown}: {why}"))
     };
     // One byte more than allowed is enough to know that a spec is too large.
     let limit = MAX_BYTES as u64 + 1;

@@ -2,6 +2,8 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::output;
+
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// Exit code of a process ended by Ctrl-C.
@@ -14,7 +16,7 @@ pub fn flag() -> &'static AtomicBool {
         if INTERRUPTED.swap(true, Ordering::Relaxed) {
             std::process::exit(SIGINT);
         }
-        eprintln!("ending with what is there; Ctrl-C again ends at once");
+        output::say("ending with what is there; Ctrl-C again ends at once");
     });
     &INTERRUPTED
 }

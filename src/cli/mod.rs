@@ -28,7 +28,7 @@ enum Failure {
     Invalid(String),
     /// Something else went wrong.
     Failed(String),
-    /// The reader of our output went away.
+    /// The reader of a result that comes in parts went away.
     Closed,
 }
 
@@ -63,11 +63,11 @@ pub fn run() -> ExitCode {
         Ok(Done::Complete) | Err(Failure::Closed) => ExitCode::SUCCESS,
         Ok(Done::Unmet) => ExitCode::from(3),
         Err(Failure::Failed(text)) => {
-            eprintln!("error: {text}");
+            output::say(format_args!("error: {text}"));
             ExitCode::from(1)
         }
         Err(Failure::Invalid(text)) => {
-            eprintln!("{}", text.trim_end());
+            output::say(text.trim_end());
             ExitCode::from(2)
         }
     }

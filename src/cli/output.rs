@@ -1,7 +1,8 @@
 //! Writing the result.
 
 use std::{
-    io::{ErrorKind, Write},
+    fmt::Display,
+    io::{self, ErrorKind, Write},
     path::Path,
 };
 
@@ -9,10 +10,28 @@ use bogie::export::file;
 
 use super::Failure;
 
-/// Makes sure that results can be written into a folder, before a long run for them.
+/// Says something on standard error. That nobody hears it changes nothing of the work.
+pub fn say(text: impl Display) {
+    let _ = writeln!(io::stderr(), "{text}");
+}
+
+/// Makes sure that results can be written into a folder, before the work for them.
 pub fn ready(folder: &Path) -> Result<(), Failure> {
-    file::ready(folder)
-        .map_err(|error| Failure::Failed(format!("cannot write to {}: {error}", folder.display())))
+    file::ready(folder).map_err(|error| cannot_write(folder, &error))
+}
+
+/// A failure to write to a place, and what is in the way.
+pub fn cannot_write(place: &Path, error: &io::Error) -> Failure {
+    let in_the_way = matches!(
+        error.kind(),
+        ErrorKind::AlreadyExists | ErrorKind::NotADirectory
+    );
+    let file = place
+        .ancestors()
+        .find(|part| in_the_way && part.is_file())
+        .map(|file| format!("{} is a file; name a folder", file.display()));
+    let why = file.unwrap_or_else(|| error.to_string());
+    Failure::Failed(format!("cannot write {}: {why}", place.display()))
 }
 
 /// Writes a result to standard output, or into a folder as `name`.
@@ -21,16 +40,23 @@ pub fn write(content: impl AsRef<[u8]>, out: Option<&Path>, name: &str) -> Resul
         return print(content);
     };
     let path = folder.join(name);
-    file::write(&path, content)
-        .map_err(|error| Failure::Failed(format!("cannot write {}: {error}", path.display())))?;
-    eprintln!("wrote {}", path.display());
+    file::write(&path, content).map_err(|error| cannot_write(&path, &error))?;
+    say(format_args!("wrote {}", path.display()));
     Ok(())
 }
 
-/// Prints to standard output; a reader that has gone away is no error.
+/// Prints to standard output. A reader that has gone away has had what it wanted.
 pub fn print(content: impl AsRef<[u8]>) -> Result<(), Failure> {
+    match part(content) {
+        Err(Failure::Closed) => Ok(()),
+        other => other,
+    }
+}
+
+/// Prints a part of a result to standard output; [`Failure::Closed`]: nobody wants the others.
+pub fn part(content: impl AsRef<[u8]>) -> Result<(), Failure> {
     let content = content.as_ref();
-    let mut stdout = std::io::stdout().lock();
+    let mut stdout = io::stdout().lock();
     let written = stdout
         .write_all(content)
         .and_then(|()| {

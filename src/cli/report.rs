@@ -133,10 +133,8 @@ impl Made<'_> {
         if path.as_os_str() == "-" {
             return output::print(html);
         }
-        file::write(path, html).map_err(|error| {
-            Failure::Failed(format!("cannot write {}: {error}", path.display()))
-        })?;
-        eprintln!("wrote {}", path.display());
+        file::write(path, html).map_err(|error| output::cannot_write(path, &error))?;
+        output::say(format_args!("wrote {}", path.display()));
         Ok(())
     }
 }
@@ -147,6 +145,6 @@ pub fn front(spec: &Spec, archive: &Archive) -> Option<Front> {
         return None;
     }
     pareto::pareto(spec, archive)
-        .inspect_err(|error| eprintln!("warning: no front: {error}"))
+        .inspect_err(|error| output::say(format_args!("warning: no front: {error}")))
         .ok()
 }

@@ -3,7 +3,7 @@
 use std::{
     fs::File,
     io::{BufRead, BufReader, Seek, SeekFrom, Write},
-    path::{Path, PathBuf},
+    path::PathBuf,
     sync::atomic::Ordering,
 };
 
@@ -61,7 +61,9 @@ pub fn sweep(call: &Sweep) -> Result<Done, Failure> {
     let whole = done >= call.designs;
     place.finish(whole)?;
     if !whole {
-        eprintln!("ended early: interrupted after {done} designs");
+        output::say(format_args!(
+            "ended early: interrupted after {done} designs"
+        ));
     }
     Ok(Done::Complete)
 }
@@ -109,7 +111,7 @@ impl Place {
         let journal = design::journal(&folder.join("sweep.journal"), header, call.resume)?.0;
         let whole = folder.join(format!("sweep.{}", call.format));
         let path = folder.join(format!("sweep.{}.partial", call.format));
-        let cannot = |error| cannot_write(&path, &error);
+        let cannot = |error| output::cannot_write(&path, &error);
         let heads = usize::from(call.format == Lines::Csv);
         let mut begun = 0;
         // What is whole may be the beginning of something longer.
@@ -180,11 +182,11 @@ impl Place {
         match &mut self.file {
             // A head without names is no line.
             _ if lines.is_empty() => Ok(()),
-            None => output::print(lines),
+            None => output::part(lines),
             Some(partial) => partial
                 .file
                 .write_all(lines)
-                .map_err(|error| cannot_write(&partial.path, &error)),
+                .map_err(|error| output::cannot_write(&partial.path, &error)),
         }
     }
 
@@ -193,7 +195,7 @@ impl Place {
         let Some(partial) = self.file else {
             return Ok(());
         };
-        let cannot = |error| cannot_write(&partial.whole, &error);
+        let cannot = |error| output::cannot_write(&partial.whole, &error);
         partial.file.sync_all().map_err(cannot)?;
         let name = if whole {
             std::fs::rename(&partial.path, &partial.whole).map_err(cannot)?;
@@ -201,13 +203,9 @@ impl Place {
         } else {
             &partial.path
         };
-        eprintln!("wrote {}", name.display());
+        output::say(format_args!("wrote {}", name.display()));
         Ok(())
     }
-}
-
-fn cannot_write(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::Failed(format!("cannot write {}: {error}", path.display()))
 }
 
 /// Number of whole lines in a file, up to `most`, and their length.

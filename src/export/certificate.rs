@@ -13,7 +13,7 @@ use crate::{
         outcome::DesignResult,
     },
     index::{Index, Scale, Sense},
-    optimize::{certificate::Curvature, local::Status},
+    optimize::{certificate::Curvature, local::Status, problem::Failure},
     units::DisplayUnit,
 };
 
@@ -108,12 +108,16 @@ fn objective(index: Index, si: f64, us: bool) -> String {
 }
 
 /// Every demand and what is reached.
-pub(crate) fn margins(sheet: &mut Sheet, margins: &[Margin]) {
+pub(crate) fn margins(sheet: &mut Sheet, result: &DesignResult) {
+    let (margins, range) = (&result.margins, result.case.model.speed_range);
     if margins.is_empty() {
         return;
     }
     sheet.heading("Requirements and limits");
-    let rows: Vec<Vec<String>> = margins.iter().map(margin_row).collect();
+    let rows: Vec<Vec<String>> = margins
+        .iter()
+        .map(|margin| margin_row(margin, range))
+        .collect();
     sheet.table(
         &["", "", "asked", "", "reached", "", "margin", ""],
         &[1, 7],
@@ -121,26 +125,52 @@ pub(crate) fn margins(sheet: &mut Sheet, margins: &[Margin]) {
     );
 }
 
-/// Index, condition, asked in SI and US units, reached likewise, margin, verdict.
-pub(crate) fn margin_row(margin: &Margin) -> Vec<String> {
+/// What is reached in SI and US units, or that nothing is, and why. A critical speed at an end of the
+/// `range` searched, m/s, lies beyond it.
+pub(crate) fn reached(
+    index: Index,
+    reached: &Result<f64, Failure>,
+    range: [f64; 2],
+) -> [String; 2] {
+    let si = match reached {
+        Ok(si) => *si,
+        Err(failure) => return ["none".into(), failure.to_string()],
+    };
+    let beyond = match index {
+        Index::CriticalSpeed if si <= range[0] => "below ",
+        Index::CriticalSpeed if si >= range[1] => "over ",
+        _ => "",
+    };
+    both(index.quantity(), si).map(|cell| {
+        if cell.is_empty() {
+            cell
+        } else {
+            format!("{beyond}{cell}")
+        }
+    })
+}
+
+/// Index, condition, asked in SI and US units, reached likewise, margin, verdict; `range` as in
+/// [`reached`].
+pub(crate) fn margin_row(margin: &Margin, range: [f64; 2]) -> Vec<String> {
     let quantity = margin.index.quantity();
     let [asked_si, asked_us] = both(quantity, margin.required);
-    let ([si, us], share) = match &margin.reached {
+    let [si, us] = reached(margin.index, &margin.reached, range);
+    let share = match &margin.reached {
         Ok(reached) => {
             let better = match margin.index.sense() {
                 Sense::AtLeast => reached - margin.required,
                 Sense::AtMost => margin.required - reached,
             };
-            let share = match margin.index.scale() {
+            match margin.index.scale() {
                 Scale::Logarithmic => {
                     let share = 100.0 * better / margin.required;
                     format!("{:.1} %", if share.abs() < 0.05 { 0.0 } else { share })
                 }
                 Scale::Linear => significant(better, 2),
-            };
-            (both(quantity, *reached), share)
+            }
         }
-        Err(_) => (["none".into(), String::new()], String::new()),
+        Err(_) => String::new(),
     };
     vec![
         margin.index.words().into(),
@@ -193,10 +223,8 @@ pub(crate) fn conflict(sheet: &mut Sheet, result: &DesignResult) {
 pub(crate) fn joint(sheet: &mut Sheet, result: &DesignResult) {
     let Some(joint) = &result.joint else { return };
     trade_off(sheet, &joint.stage);
-    let cell = |index: Index, value: &Result<f64, _>| match value {
-        Ok(si) => both(index.quantity(), *si),
-        Err(_) => ["none".into(), String::new()],
-    };
+    let range = result.case.model.speed_range;
+    let cell = |index: Index, value: &Result<f64, Failure>| reached(index, value, range);
     let rows: Vec<Vec<String>> = joint
         .indices
         .iter()

@@ -44,7 +44,7 @@ pub fn design(
         trade_off(&mut sheet, stage);
     }
     joint(&mut sheet, result);
-    margins(&mut sheet, &result.margins);
+    margins(&mut sheet, result);
     performance(&mut sheet, result);
     stability(&mut sheet, &result.evaluation);
     constraint_table(&mut sheet, &checks(&result.case, &result.evaluation));
@@ -197,7 +197,7 @@ fn profile_row(profile: &Profile) -> Vec<String> {
     let speed = profile.critical_speed;
     vec![
         significant(profile.conicity, 3),
-        speed.map_or("none".into(), |v| us(Quantity::Speed, v)),
+        speed.map_or("none in range".into(), |v| us(Quantity::Speed, v)),
         format!("{}°", significant(profile.degree, 4)),
         us(Quantity::RotationalStiffness, profile.bending_stiffness),
         us(Quantity::Stiffness, profile.lateral_stiffness),

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     design::margin::{margins, value},
-    export::{design_text::value as written, number::both},
+    export::{certificate::reached as in_words, design_text::value as written},
     index::{Index, Sense},
     optimize::problem::Failure,
 };
@@ -38,10 +38,8 @@ pub fn gain(report: &Report) -> Markup {
 }
 
 fn reached(report: &Report) -> Markup {
-    let cell = |index: Index, reached: &Result<f64, Failure>| match reached {
-        Ok(si) => both(index.quantity(), *si),
-        Err(_) => ["none".into(), String::new()],
-    };
+    let range = report.result.case.model.speed_range;
+    let cell = |index: Index, value: &Result<f64, Failure>| in_words(index, value, range);
     let rows: Vec<Vec<String>> = headline(report)
         .into_iter()
         .map(|index| {

@@ -68,7 +68,7 @@ fn margins(report: &Report) -> Markup {
     let rows: Vec<Vec<String>> = margins
         .iter()
         .map(|margin| {
-            let mut row = margin_row(margin);
+            let mut row = margin_row(margin, report.result.case.model.speed_range);
             if margin.condition.is_none() {
                 row[1] = "nominal".into();
             }

@@ -45,7 +45,11 @@ impl Spec {
     /// All mistakes found; those of TOML syntax hide the rest.
     pub fn parse(source: &str) -> Result<Self, Diagnostics> {
         let (root, errors) = DeTable::parse_recoverable(source);
-        let mut mistakes: Vec<Diagnostic> = errors.iter().take(MOST).map(syntax).collect();
+        let mut mistakes: Vec<Diagnostic> = errors
+            .iter()
+            .take(MOST)
+            .map(|error| syntax(source, error))
+            .collect();
         if !mistakes.is_empty() {
             return Err(Diagnostics::new(mistakes));
         }
@@ -116,11 +120,19 @@ fn refuse(message: String, expected: &str, help: Option<&str>) -> Diagnostics {
 }
 
 /// A mistake of TOML's syntax.
-fn syntax(error: &toml::de::Error) -> Diagnostic {
+fn syntax(source: &str, error: &toml::de::Error) -> Diagnostic {
     let message = error.message();
+    let at = error.span().map_or(source.len(), |span| span.start);
+    let [before, after] = [source.get(..at), source.get(at..)].map(Option::unwrap_or_default);
     let (expected, help) = if message == "duplicate key" {
         let help = "every key and every table stands once; put its keys together";
         ("here a second time", Some(help))
+    } else if after.starts_with(['“', '”', '„', '‘', '’', '«', '»']) {
+        let help = "quotes are straight in TOML: \"2500 slug\"";
+        ("no valid TOML from here on", Some(help))
+    } else if after.starts_with(',') && before.ends_with(|c: char| c.is_ascii_digit()) {
+        let help = "numbers have a decimal point, and no commas: 0.05";
+        ("no valid TOML from here on", Some(help))
     } else if message.contains("quoted") {
         let help = "a value with its unit stands in quotes: mass = \"2500 slug\"";
         ("no valid TOML from here on", Some(help))

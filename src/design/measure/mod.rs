@@ -237,10 +237,9 @@ impl<'a> Vertical<'a> {
     }
 }
 
-/// `unstable` says what a model without a stationary response does.
-fn no_ride(reason: NoRide, unstable: Failure) -> Failure {
+fn no_ride(reason: NoRide) -> Failure {
     match reason {
-        NoRide::Unstable => unstable,
+        NoRide::Unstable => Failure::Unstable,
         NoRide::NotConverged => Failure::Integration,
         NoRide::Poles(_) => Failure::Eigenvalues,
     }

@@ -38,16 +38,15 @@ impl Lateral<'_> {
             tangents,
             graded,
         } = self;
-        let failed = |reason| no_ride(reason, Failure::Unstable);
         if index == Index::LateralIsoRatio {
             let passengers = PassengerRide::lateral_with_derivatives(model, case, poles, tangents);
             return passengers
                 .map(|(now, by)| iso_ratios(&now, graded.then_some(&by)))
-                .map_err(failed);
+                .map_err(no_ride);
         }
         if ride.is_none() {
             let found = LateralRide::with_derivatives(model, case, poles, tangents);
-            *ride = Some(found.map_err(failed)?);
+            *ride = Some(found.map_err(no_ride)?);
         }
         let ride = ride.as_ref().ok_or(Failure::Integration)?;
         Ok(made_of(ride, *graded, |ride| match index {
@@ -63,18 +62,17 @@ impl Lateral<'_> {
 impl Vertical<'_> {
     pub(super) fn ride(&mut self, index: Index) -> Measured {
         let (case, graded) = (self.case, self.constants.is_some());
-        let failed = |reason| no_ride(reason, Failure::Diverging);
         if index == Index::VerticalIsoRatio {
             let (model, poles, tangents) = self.model()?;
             let passengers = PassengerRide::vertical_with_derivatives(model, case, poles, tangents);
             return passengers
                 .map(|(now, by)| iso_ratios(&now, graded.then_some(&by)))
-                .map_err(failed);
+                .map_err(no_ride);
         }
         if self.ride.is_none() {
             let (model, poles, tangents) = self.model()?;
             let ride = VerticalRide::with_derivatives(model, case, poles, tangents);
-            self.ride = Some(ride.map_err(failed)?);
+            self.ride = Some(ride.map_err(no_ride)?);
         }
         let ride = self.ride.as_ref().ok_or(Failure::Integration)?;
         let load = case.vehicle.wheel_load();
