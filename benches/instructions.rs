@@ -126,7 +126,13 @@ fn runs(program: &str) -> bool {
 /// Instructions of each part, from what Callgrind left.
 fn counts(target: &Path) -> std::io::Result<Vec<(String, u64)>> {
     let mut counts = Vec::new();
-    for part in std::fs::read_dir(target.join("gungraun/instructions/counted/evaluation"))? {
+    // The runner puts the package's name between where it can tell it.
+    let folders = ["gungraun/bogie", "gungraun"].map(|folder| target.join(folder));
+    let folder = folders
+        .iter()
+        .find(|folder| folder.join("instructions").is_dir());
+    let folder = folder.unwrap_or(&folders[0]);
+    for part in std::fs::read_dir(folder.join("instructions/counted/evaluation"))? {
         let part = part?;
         for file in std::fs::read_dir(part.path())? {
             let path = file?.path();

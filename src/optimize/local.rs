@@ -1,11 +1,12 @@
 //! Local phase: a trust-region method on quadratic surrogates of the full models.
 //!
-//! Sequential quadratic programming without derivatives: the surrogates are fitted to evaluations
-//! around the best design, the subproblem minimises an exact penalty of them inside the trust
+//! Sequential quadratic programming: the surrogates come from gradients where the problem has them
+//! (`secants`) and are fitted to evaluations around the best design where not
+//! (`surrogate`); the subproblem minimises an exact penalty of them inside the trust
 //! region, and the penalty rises where feasibility asks for it (Byrd, Nocedal, Waltz: *Steering
-//! exact penalty methods for nonlinear programming*, 2008). Before every fit the designs near the
-//! centre are made to span the space, so that the surrogates' gradients are right to first order
-//! and a step that fails shrinks the region with good reason: the ground on which such methods
+//! exact penalty methods for nonlinear programming*, 2008). Surrogates are right to first order at
+//! the centre, by gradients or because before every fit the designs nearby are made to span the
+//! space: a step that fails shrinks the region with good reason, the ground on which such methods
 //! converge to first-order points from anywhere (Conn, Scheinberg, Vicente 2009, chapter 10).
 
 use nalgebra::DVector;
