@@ -27,6 +27,20 @@ pub enum Ink {
 }
 
 impl Ink {
+    /// The `i`-th of a set that can be told apart. Vermilion is not among them: it is for the design and
+    /// its limits.
+    pub fn nth(i: usize) -> Self {
+        const SET: [Ink; 6] = [
+            Ink::Black,
+            Ink::Blue,
+            Ink::Green,
+            Ink::Purple,
+            Ink::Orange,
+            Ink::Sky,
+        ];
+        SET[i % SET.len()]
+    }
+
     /// All.
     pub const ALL: [Self; 8] = [
         Self::Black,
@@ -139,18 +153,8 @@ impl Stroke {
     }
 
     /// The `i`-th look of a set that can be told apart in colour and in black and white.
-    ///
-    /// Vermilion is not among them: it is for the design and its limits.
     pub fn nth(i: usize) -> Self {
-        const INKS: [Ink; 6] = [
-            Ink::Black,
-            Ink::Blue,
-            Ink::Green,
-            Ink::Purple,
-            Ink::Orange,
-            Ink::Sky,
-        ];
-        Self::new(INKS[i % INKS.len()], Dash::ALL[i % Dash::ALL.len()])
+        Self::new(Ink::nth(i), Dash::ALL[i % Dash::ALL.len()])
     }
 
     /// The same line in another width.

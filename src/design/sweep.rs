@@ -80,12 +80,8 @@ impl<'a> Sweep<'a> {
                 tasks.bare(&case, &Index::ALL)
             })
             .collect();
-        let demands: Vec<Demands> = std::iter::once(spec.demands.clone())
-            .chain(
-                spec.conditions
-                    .iter()
-                    .map(|condition| spec.demands.overridden(&condition.demands)),
-            )
+        let demands: Vec<Demands> = (0..=spec.conditions.len())
+            .map(|condition| tasks.demands_in(condition))
             .collect();
         let wanted = demands.iter().enumerate().map(|(condition, demands)| {
             let mut all = if condition == 0 {

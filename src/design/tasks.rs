@@ -102,7 +102,7 @@ impl<'a> Tasks<'a> {
     }
 
     /// What is asked in a condition, the nominal one being number 0.
-    fn demands_in(&self, condition: usize) -> Demands {
+    pub(super) fn demands_in(&self, condition: usize) -> Demands {
         match condition.checked_sub(1) {
             None => self.demands.clone(),
             Some(i) => self.demands.overridden(&self.conditions[i].demands),

@@ -262,11 +262,20 @@ impl CurvingState {
             .fold(0.0, f64::max)
     }
 
+    /// Sums of lateral and of vertical forces on some wheels, (wheelset, side), N.
+    pub fn sums(&self, wheels: &[(usize, usize)]) -> [f64; 2] {
+        let forces = wheels.iter().map(|&(i, side)| &self.wheels[i][side]);
+        [
+            forces.clone().map(|wheel| wheel.lateral).sum(),
+            forces.map(|wheel| wheel.vertical).sum(),
+        ]
+    }
+
     /// (L1 + L2)/(V1 + V2) of one side of a truck, signed outward.
     pub fn truck_side(&self, truck: usize, side: Side) -> f64 {
-        let wheels = [2 * truck, 2 * truck + 1].map(|i| self.wheels[i][side as usize]);
-        wheels.iter().map(|w| w.lateral).sum::<f64>()
-            / wheels.iter().map(|w| w.vertical).sum::<f64>()
+        let [lateral, vertical] =
+            self.sums(&[2 * truck, 2 * truck + 1].map(|i| (i, side as usize)));
+        lateral / vertical
     }
 
     /// L/V of all truck sides, signed outward: outer and inner of truck 1, then of truck 2.
@@ -290,8 +299,8 @@ impl CurvingState {
 
     /// Net lateral force over vertical load of axle `i`.
     pub fn net_axle(&self, i: usize) -> f64 {
-        let [outer, inner] = &self.wheels[i];
-        (outer.lateral + inner.lateral).abs() / (outer.vertical + inner.vertical)
+        let [lateral, vertical] = self.sums(&[(i, 0), (i, 1)]);
+        lateral.abs() / vertical
     }
 
     /// Largest net axle L/V.

@@ -30,6 +30,13 @@ pub fn damping_ratio(s: Complex<f64>) -> f64 {
     -s.re / size(s)
 }
 
+/// Change of the damping ratio with that of the eigenvalue.
+pub fn damping_ratio_change(s: Complex<f64>, change: Complex<f64>) -> f64 {
+    let size = size(s);
+    let growth = (s.re * change.re + s.im * change.im) / size;
+    (s.re * growth / size - change.re) / size
+}
+
 /// Steps of inverse iteration: one is enough for an eigenvalue good to 1e-12, the second cleans.
 const STEPS: usize = 2;
 

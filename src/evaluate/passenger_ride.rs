@@ -4,7 +4,7 @@ use super::{
     integration::Integrals,
     panels::panels,
     response::Response,
-    ride::{NoRide, mean_squares, stationary},
+    ride::{NoRide, mean_squares, rms_change, stationary},
 };
 use crate::{
     case::Case,
@@ -194,7 +194,7 @@ impl Spectra {
             std::array::from_fn(|point| {
                 let bands = self.in_bands(12 + 3 * constant + point);
                 let rms = passengers[point].bands.iter().map(|band| band.acceleration);
-                let slope = |(square, rms): (f64, f64)| square / (2.0 * rms).max(f64::MIN_POSITIVE);
+                let slope = |(square, rms): (f64, f64)| rms_change(rms, square);
                 bands
                     .map(|(_, square)| square)
                     .zip(rms)

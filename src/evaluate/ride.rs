@@ -95,13 +95,20 @@ pub(crate) fn mean_squares(
     Ok(integrals)
 }
 
-/// RMS values of all outputs of a model, and their derivatives by the constants of some tangents.
-fn rms(
+/// Change of an RMS value with that of its square; what does not move at all does not for any reason.
+pub(super) fn rms_change(rms: f64, of_square: f64) -> f64 {
+    of_square / (2.0 * rms).max(f64::MIN_POSITIVE)
+}
+
+/// RMS values of all outputs of a model, as `of` arranges them, and likewise their derivatives by the
+/// constants of some tangents.
+fn rms<T>(
     model: &ForcedModel,
     case: &Case,
     poles: &Poles,
     tangents: &[ForcedTangent],
-) -> Result<(Vec<f64>, Vec<Vec<f64>>), NoRide> {
+    of: fn(&[f64]) -> T,
+) -> Result<(T, Vec<T>), NoRide> {
     stationary(poles)?;
     let outputs = model.outputs.len();
     let response = Response::new(model, &case.service.track, case.service.speed);
@@ -111,13 +118,11 @@ fn rms(
     let rms: Vec<f64> = (0..outputs).map(|k| integrals.total(k).sqrt()).collect();
     let derivatives = (1..=tangents.len()).map(|p| {
         let of_constant = rms.iter().enumerate();
-        // What does not move at all does not move for any constant.
-        of_constant
-            .map(|(k, rms)| integrals.total(p * outputs + k) / (2.0 * rms).max(f64::MIN_POSITIVE))
-            .collect()
+        let change = |(k, rms): (usize, &f64)| rms_change(*rms, integrals.total(p * outputs + k));
+        of(&of_constant.map(change).collect::<Vec<f64>>())
     });
     let derivatives = derivatives.collect();
-    Ok((rms, derivatives))
+    Ok((of(&rms), derivatives))
 }
 
 fn array<const N: usize>(rms: &[f64], outputs: std::ops::Range<usize>) -> [f64; N] {
@@ -155,9 +160,7 @@ impl LateralRide {
         poles: &Poles,
         tangents: &[ForcedTangent],
     ) -> Result<(Self, Vec<Self>), NoRide> {
-        let (rms, derivatives) = rms(&model.forced, case, poles, tangents)?;
-        let derivatives = derivatives.iter().map(|values| Self::of(values));
-        Ok((Self::of(&rms), derivatives.collect()))
+        rms(&model.forced, case, poles, tangents, Self::of)
     }
 
     /// From values in the order of the model's outputs.
@@ -218,9 +221,7 @@ impl VerticalRide {
         poles: &Poles,
         tangents: &[ForcedTangent],
     ) -> Result<(Self, Vec<Self>), NoRide> {
-        let (rms, derivatives) = rms(&model.forced, case, poles, tangents)?;
-        let derivatives = derivatives.iter().map(|values| Self::of(values));
-        Ok((Self::of(&rms), derivatives.collect()))
+        rms(&model.forced, case, poles, tangents, Self::of)
     }
 
     /// From values in the order of the model's outputs.

@@ -236,6 +236,16 @@ impl<'a> Archive<'a> {
         self.lock().failures.clone()
     }
 
+    /// Failures since there were as many as `before`, by kind.
+    pub fn failures_since(&self, before: &BTreeMap<Failure, usize>) -> BTreeMap<Failure, usize> {
+        let mut since = self.failures();
+        for (failure, count) in before {
+            since.entry(*failure).and_modify(|all| *all -= count);
+        }
+        since.retain(|_, count| *count > 0);
+        since
+    }
+
     /// Why the run was ended, if it was.
     pub fn stopped(&self) -> Option<Stop> {
         self.lock().stopped

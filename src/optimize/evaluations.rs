@@ -58,6 +58,16 @@ impl<'a> Evaluations<'a> {
         self.in_detail(designs, detail)
     }
 
+    /// As [`Evaluations::graded`], of one design.
+    ///
+    /// # Errors
+    ///
+    /// As [`Evaluations::all`].
+    pub fn graded_at(&self, x: &[f64]) -> Result<Point, Stop> {
+        let mut points = self.graded(&[x.to_vec()])?;
+        Ok(points.remove(0))
+    }
+
     fn in_detail(&self, designs: &[Vec<f64>], detail: Detail) -> Result<Vec<Point>, Stop> {
         let outcome = self.archive.measure(self.problem, designs, detail);
         let point = |x: &Vec<f64>, measured: super::archive::Measured| Point {

@@ -192,10 +192,7 @@ struct Region<'a> {
 impl Region<'_> {
     fn search(&mut self) -> Result<(), Stop> {
         let n = self.centre.x.len();
-        let start = std::slice::from_ref(&self.centre.x);
-        if let Some(start) = self.evaluations.graded(start)?.pop() {
-            self.centre = start;
-        }
+        self.centre = self.evaluations.graded_at(&self.centre.x)?;
         if !has_gradients(&self.centre) {
             let first = pattern(&self.centre.x, self.step_length(), n <= FEW);
             self.evaluations.all(&first)?;
@@ -349,9 +346,7 @@ impl Region<'_> {
             .zip(d)
             .map(|(x, d)| snap(x + d))
             .collect();
-        let Some(trial) = self.evaluations.graded(&[x])?.pop() else {
-            return Ok(());
-        };
+        let trial = self.evaluations.graded_at(&x)?;
         let gain = self.centre.merit(self.penalty) - trial.merit(self.penalty);
         let ratio = gain / expected;
         let length = d.amax();
@@ -370,8 +365,7 @@ impl Region<'_> {
     }
 
     /// Verifies the first-order conditions, by exact gradients or by fresh evaluations on both sides of
-    /// the centre.
-    /// Whether the search should go on from there.
+    /// the centre. Whether the search should go on from there.
     fn verify(&mut self) -> Result<bool, Stop> {
         self.certificate = None;
         if has_gradients(&self.centre) {

@@ -85,17 +85,10 @@ pub fn solve(problem: &dyn Problem, start: &Start, archive: &Archive) -> Result<
         .iter()
         .filter(|end| agrees(&end.point, &found.point))
         .count();
-    let mut spent = archive.failures();
-    for (failure, before) in failures {
-        if let Some(count) = spent.get_mut(&failure) {
-            *count -= before;
-        }
-    }
-    spent.retain(|_, count| *count > 0);
     Ok(Solved {
         effort: Effort {
             evaluations: archive.count() - count,
-            failures: spent,
+            failures: archive.failures_since(&failures),
             starts: ends.len(),
             agreed,
             seconds: clock.elapsed().as_secs_f64(),

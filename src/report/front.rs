@@ -97,12 +97,9 @@ fn chart(report: &Report, front: &Front) -> Figure {
         if conicities.len() > 1 {
             for (i, conicity) in conicities.iter().enumerate() {
                 let label = format!("λ = {}", significant(*conicity, 3));
-                panel.keys.push(Mark::new(
-                    [0.0, 0.0],
-                    Symbol::Disc,
-                    INKS[i % INKS.len()],
-                    label,
-                ));
+                panel
+                    .keys
+                    .push(Mark::new([0.0, 0.0], Symbol::Disc, Ink::nth(i), label));
             }
         }
         drawn = drawn.panel(panel);
@@ -120,15 +117,6 @@ fn chart(report: &Report, front: &Front) -> Figure {
     )
 }
 
-const INKS: [Ink; 6] = [
-    Ink::Black,
-    Ink::Blue,
-    Ink::Green,
-    Ink::Purple,
-    Ink::Orange,
-    Ink::Sky,
-];
-
 /// Conicities of the front's wheel profiles, in order.
 fn conicities(front: &Front) -> Vec<f64> {
     let mut list: Vec<f64> = front
@@ -144,7 +132,7 @@ fn conicities(front: &Front) -> Vec<f64> {
 fn ink(conicities: &[f64], point: &FrontPoint) -> Ink {
     let own = point.case.wheel_rail.conicity;
     let place = conicities.iter().position(|c| c.total_cmp(&own).is_eq());
-    INKS[place.unwrap_or(0) % INKS.len()]
+    Ink::nth(place.unwrap_or(0))
 }
 
 fn axis(index: Index, values: impl Iterator<Item = f64>) -> Axis {

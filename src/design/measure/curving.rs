@@ -27,13 +27,13 @@ pub(super) struct Curve {
 /// The curving models of a case, built when first asked for.
 pub(super) struct Curves<'a> {
     case: &'a Case,
-    constants: Option<&'a Constants<'a>>,
+    constants: Option<&'a Constants>,
     limits: Option<(CurvingModel, CurvingLimits)>,
     curve: Option<Curve>,
 }
 
 impl<'a> Curves<'a> {
-    pub fn new(case: &'a Case, constants: Option<&'a Constants<'a>>) -> Self {
+    pub fn new(case: &'a Case, constants: Option<&'a Constants>) -> Self {
         Self {
             case,
             constants,
@@ -128,58 +128,43 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Forces that an index is made of, each a weighted sum over the wheels, [outer, inner] of wheelsets
-/// 1–4.
-type Weights = [[f64; 2]; 4];
-
 impl Curve {
     fn pieces(&self, index: Index) -> Vec<Piece> {
         if index == Index::AdhesionUsed {
             let wheels = self.state.wheels.iter().flatten();
             let values: Vec<f64> = wheels.map(|wheel| wheel.adhesion_used).collect();
-            let change = |by: &[[WheelChange; 2]; 4]| -> Vec<f64> {
+            return self.graded(&values, |by| {
                 by.iter()
                     .flatten()
                     .map(|wheel| wheel.adhesion_used)
                     .collect()
-            };
-            let gradients: Option<Vec<Vec<f64>>> = self
-                .wheels
-                .as_ref()
-                .map(|all| all.iter().map(change).collect());
-            return pieces(&values, gradients.as_deref());
+            });
         }
-        let ratios: Vec<(f64, Weights)> = wheels_of(index)
+        let wheels = wheels_of(index);
+        let sums: Vec<[f64; 2]> = wheels.iter().map(|w| self.state.sums(w)).collect();
+        let ratios = sums
             .iter()
-            .map(|wheels| self.ratio(wheels))
-            .collect();
-        let values: Vec<f64> = ratios.iter().map(|(ratio, _)| ratio.abs()).collect();
-        let change = |by: &[[WheelChange; 2]; 4]| -> Vec<f64> {
-            let of = |(ratio, weights): &(f64, Weights)| {
-                let terms = (0..4).flat_map(|i| [(i, 0), (i, 1)]);
-                let sum: f64 = terms.map(|(i, k)| weights[i][k] * by[i][k].lateral).sum();
-                sum * ratio.signum()
+            .map(|[lateral, vertical]| lateral.abs() / vertical);
+        self.graded(&ratios.collect::<Vec<f64>>(), |by| {
+            let pairs = wheels.iter().zip(&sums);
+            // The loads do not depend on the suspension.
+            let change = |(wheels, [lateral, vertical]): (&Vec<(usize, usize)>, &[f64; 2])| {
+                let sum: f64 = wheels.iter().map(|&(i, side)| by[i][side].lateral).sum();
+                sum / vertical * lateral.signum()
             };
-            ratios.iter().map(of).collect()
-        };
-        let gradients: Option<Vec<Vec<f64>>> = self
-            .wheels
-            .as_ref()
-            .map(|all| all.iter().map(change).collect());
-        pieces(&values, gradients.as_deref())
+            pairs.map(change).collect()
+        })
     }
 
-    /// ΣL/ΣV over some wheels, and the weight in it of the lateral force on each. The loads do not
-    /// depend on the suspension.
-    fn ratio(&self, wheels: &[(usize, usize)]) -> (f64, Weights) {
-        let forces = wheels.iter().map(|&(i, k)| &self.state.wheels[i][k]);
-        let vertical: f64 = forces.clone().map(|wheel| wheel.vertical).sum();
-        let lateral: f64 = forces.map(|wheel| wheel.lateral).sum();
-        let mut weights = [[0.0; 2]; 4];
-        for &(i, k) in wheels {
-            weights[i][k] = 1.0 / vertical;
-        }
-        (lateral / vertical, weights)
+    /// Pieces of values, and of what the change of the wheels' forces by each constant makes of them.
+    fn graded(
+        &self,
+        values: &[f64],
+        change: impl Fn(&[[WheelChange; 2]; 4]) -> Vec<f64>,
+    ) -> Vec<Piece> {
+        let wheels = self.wheels.as_ref();
+        let by: Option<Vec<Vec<f64>>> = wheels.map(|all| all.iter().map(change).collect());
+        pieces(values, by.as_deref())
     }
 }
 

@@ -86,7 +86,7 @@ struct Job<'a> {
     case: &'a Case,
     wanted: &'a [Wanted],
     /// By which gradients are taken, if they are.
-    constants: Option<&'a Constants<'a>>,
+    constants: Option<&'a Constants>,
     /// Nothing is of use unless all is there.
     all_or_nothing: bool,
 }
@@ -95,7 +95,7 @@ impl<'a> Job<'a> {
     fn new(
         case: &'a Case,
         wanted: &'a [Wanted],
-        constants: Option<&'a Constants<'a>>,
+        constants: Option<&'a Constants>,
         all_or_nothing: bool,
     ) -> Self {
         Self {
@@ -122,13 +122,17 @@ impl<'a> Job<'a> {
             return Vec::new();
         }
         let failed = |failure: Failure| wanted.iter().map(|(i, _)| (*i, Err(failure))).collect();
-        let Ok(lateral) = Lateral::new(self.case, self.constants) else {
+        let Ok(mut lateral) = Lateral::new(self.case) else {
             return failed(Failure::Eigenvalues);
         };
         let (rides, stability): (Vec<_>, Vec<_>) =
             wanted.iter().partition(|(_, wanted)| wanted.is_ride());
         if self.all_or_nothing && !rides.is_empty() && !lateral.poles.stable() {
             return failed(Failure::Unstable);
+        }
+        if let Some(constants) = self.constants {
+            lateral.tangents = constants.lateral(&lateral.model);
+            lateral.graded = true;
         }
         let (stability, rides) = rayon::join(
             || {
@@ -194,15 +198,14 @@ struct Lateral<'a> {
 }
 
 impl<'a> Lateral<'a> {
-    fn new(case: &'a Case, constants: Option<&Constants>) -> Result<Self, EigenError> {
+    fn new(case: &'a Case) -> Result<Self, EigenError> {
         let model = LateralModel::new(case);
-        let tangents = constants.map(|constants| constants.lateral(&model));
         Ok(Self {
             case,
             poles: Poles::at(&model.forced.system, case.service.speed)?,
             model,
-            tangents: tangents.unwrap_or_default(),
-            graded: constants.is_some(),
+            tangents: Vec::new(),
+            graded: false,
         })
     }
 }
@@ -210,13 +213,13 @@ impl<'a> Lateral<'a> {
 /// The vertical model of a case, built when first asked for, likewise.
 struct Vertical<'a> {
     case: &'a Case,
-    constants: Option<&'a Constants<'a>>,
+    constants: Option<&'a Constants>,
     model: Option<(VerticalModel, Poles, Vec<ForcedTangent>)>,
     ride: Option<ride::Graded<VerticalRide>>,
 }
 
 impl<'a> Vertical<'a> {
-    fn new(case: &'a Case, constants: Option<&'a Constants<'a>>) -> Self {
+    fn new(case: &'a Case, constants: Option<&'a Constants>) -> Self {
         Self {
             case,
             constants,

@@ -8,7 +8,7 @@ use crate::{
         damping_range::{DampingMinimum, DampingRange, Place},
         gradients::modes,
         lateral_modes::{LateralModes, LateralShape},
-        mode::Mode,
+        mode::{Mode, damping_ratio_change},
     },
     index::Index,
     optimize::problem::{Failure, Piece},
@@ -82,7 +82,7 @@ impl Lateral<'_> {
         let gradient = |mode: &Mode| -> Vec<f64> {
             let speed = self.case.service.speed;
             let changes = modes::by_constants(system, &self.tangents, speed, mode);
-            let of = |change| modes::damping_ratio(mode.eigenvalue, change);
+            let of = |change| damping_ratio_change(mode.eigenvalue, change);
             changes.into_iter().map(of).collect()
         };
         let wanted = modes.oscillatory.iter();
@@ -148,6 +148,6 @@ fn minimum_gradient(
     let mode = Mode::at(system, &system.damping_at(speed), minimum.eigenvalue())?;
     let mut changes = modes::by_constants(system, tangents, speed, &mode);
     changes.push(moves * modes::by_speed(system, speed, &mode));
-    let of = |change| modes::damping_ratio(mode.eigenvalue, change);
+    let of = |change| damping_ratio_change(mode.eigenvalue, change);
     Some(changes.into_iter().map(of).collect())
 }

@@ -6,6 +6,7 @@ use crate::{
     dynamics::{Poles, VerticalModel},
     evaluate::{
         checks::separations,
+        gradients::five_point,
         vertical_modes::{flexible_separations, vertical_modes},
     },
     index::Index,
@@ -95,7 +96,7 @@ fn derivative(index: Index, case: &Case, found: &[Piece], constant: Parameter) -
     let around = [at(-2.0)?, at(-1.0)?, at(1.0)?, at(2.0)?];
     let slope = |k: usize| {
         let [a, b, c, d] = around.each_ref().map(|pieces| follow(found, k, pieces));
-        Some((a? - 8.0 * b? + 8.0 * c? - d?) / (12.0 * step))
+        Some(five_point([a?, b?, c?, d?], step))
     };
     (0..found.len()).map(slope).collect()
 }

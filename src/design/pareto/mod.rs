@@ -140,11 +140,6 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
     }
     thin(&mut points, indices, spec.front.points);
     points.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
-    let mut failures = archive.failures();
-    for (failure, count) in before {
-        failures.entry(failure).and_modify(|all| *all -= count);
-    }
-    failures.retain(|_, count| *count > 0);
     Ok(Front {
         indices: indices.clone(),
         parameters,
@@ -152,7 +147,7 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
         dominated,
         stopped: archive.stopped(),
         evaluations: archive.count() - count,
-        failures,
+        failures: archive.failures_since(&before),
     })
 }
 

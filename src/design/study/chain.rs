@@ -1,7 +1,7 @@
 //! From derivatives by the constants of Table 4.1.1 to gradients over a study's variables.
 
 use super::Study;
-use crate::{optimize::problem::Scale, parameter::Parameter};
+use crate::{evaluate::gradients::five_point, optimize::problem::Scale, parameter::Parameter};
 
 /// How the constants of a case follow the variables at a design.
 pub(super) struct Chain {
@@ -44,11 +44,12 @@ impl Chain {
                 let case = study.in_condition(&study.with_values(&moved), condition);
                 Parameter::TEN.map(|constant| constant.get(&case))
             };
-            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(at);
-            let slope = variable.slope(values[i]) / (12.0 * step);
+            let around = [-2.0, -1.0, 1.0, 2.0].map(at);
+            let slope = variable.slope(values[i]);
             for (k, by) in by_parameters.iter_mut().enumerate() {
-                let change = ((a[k] - d[k]) + 8.0 * (c[k] - b[k])) * slope;
-                if change.abs() > ROUNDING * a[k].abs() {
+                let at = around.map(|constants| constants[k]);
+                let change = slope * five_point(at, step);
+                if change.abs() > ROUNDING * at[0].abs() {
                     by[i] = change;
                 }
             }

@@ -121,14 +121,12 @@ impl Problem for Study {
             } else {
                 (term.scaled(piece.value), term.slope(piece.value))
             };
-            let gradient = piece.gradient.iter();
+            let gradient = piece.gradient.as_ref();
             let scaled = Piece {
                 value,
                 index: piece.index,
                 label: piece.label,
-                gradient: gradient
-                    .map(|g| g.iter().map(|d| slope * d).collect())
-                    .next(),
+                gradient: gradient.map(|g| g.iter().map(|d| slope * d).collect()),
             };
             match term.role {
                 Role::Objective { group, .. } if !damping => values.objectives[group].push(scaled),

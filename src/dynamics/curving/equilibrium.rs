@@ -44,6 +44,11 @@ pub struct Segment {
 }
 
 impl Segment {
+    /// All coordinates at a curvature (1/m), m or rad.
+    pub fn displacements(&self, curvature: f64) -> DVector<f64> {
+        &self.at_zero + &self.per_curvature * curvature
+    }
+
     /// Coordinate `index` at a curvature (1/m), m or rad.
     pub fn displacement(&self, index: usize, curvature: f64) -> f64 {
         self.at_zero[index] + curvature * self.per_curvature[index]

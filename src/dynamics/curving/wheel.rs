@@ -10,6 +10,8 @@
 //!
 //! The normal forces add, for the axle, −(W_A/a)(a11 + Δ) y laterally and +W_A a δ0 ψ in yaw.
 
+use nalgebra::DVector;
+
 use super::{CurvingModel, Segment};
 
 /// Which wheel of a wheelset.
@@ -65,6 +67,16 @@ pub(crate) struct Place {
     pub psi: f64,
 }
 
+impl Place {
+    /// Of wheelset `i` in the coordinates of the model, or in their change.
+    pub fn of(x: &DVector<f64>, i: usize) -> Self {
+        Self {
+            y: x[i],
+            psi: x[4 + i],
+        }
+    }
+}
+
 impl CurvingModel {
     /// Adds the forces of wheelset `i`, wheel by wheel, to stiffness and loads.
     pub(super) fn add_wheelset(&mut self, i: usize) {
@@ -94,13 +106,9 @@ impl CurvingModel {
     /// Creep forces (F_x, F_y) of a wheel as affine functions of curvature on a segment:
     /// [at zero curvature, per unit curvature], N and N m.
     pub(crate) fn creep_forces(&self, segment: &Segment, i: usize, side: Side) -> [[f64; 2]; 2] {
-        let of = |x: &nalgebra::DVector<f64>| Place {
-            y: x[i],
-            psi: x[4 + i],
-        };
         [
-            self.creep(of(&segment.at_zero), 0.0, 1.0, side),
-            self.creep(of(&segment.per_curvature), 1.0, 0.0, side),
+            self.creep(Place::of(&segment.at_zero, i), 0.0, 1.0, side),
+            self.creep(Place::of(&segment.per_curvature, i), 1.0, 0.0, side),
         ]
     }
 

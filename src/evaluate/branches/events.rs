@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     dynamics::elimination::{LANES, Lanes},
-    evaluate::mode::{Mode, damping_ratio, size},
+    evaluate::mode::{Mode, damping_ratio, damping_ratio_change},
 };
 
 /// What to look for on a branch between two speeds.
@@ -47,10 +47,7 @@ const SAME: f64 = 1e-6;
 
 /// dζ/d ln V.
 fn damping_slope(known: &Known) -> f64 {
-    let (s, d) = (known.s, known.slope);
-    let size = size(s);
-    let growth = (s.re * d.re + s.im * d.im) / size;
-    (s.re * growth / size - d.re) / size
+    damping_ratio_change(known.s, known.slope)
 }
 
 impl Sought {

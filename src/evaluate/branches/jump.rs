@@ -42,8 +42,13 @@ impl Branches<'_> {
             let lanes: Vec<usize> = (0..LANES)
                 .filter(|&l| uncertain(now, l) || uncertain(&next, l))
                 .collect();
+            let mut settled: Vec<[usize; 2]> = Vec::new();
             for lane in lanes {
                 let (other, twins) = Twins::of(now, &next, lane)?;
+                if settled.contains(&[other, lane]) {
+                    continue;
+                }
+                settled.push([lane, other]);
                 if !twins.are_quiet(search) || !twins.hold(&self.model.forced.system) {
                     return None;
                 }

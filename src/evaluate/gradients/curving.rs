@@ -43,7 +43,7 @@ impl<'a> CurvingTangents<'a> {
     fn coordinates(&self, curvature: f64) -> Option<Vec<DVector<f64>>> {
         let segment = self.model.segment_at(curvature);
         let state = segment.breakaway;
-        let x = &segment.at_zero + &segment.per_curvature * curvature;
+        let x = segment.displacements(curvature);
         // Load less stiffness times place: zero in equilibrium.
         let unbalance = |model: &CurvingModel| {
             let [load, slope] = model.loads_in(state);
@@ -77,19 +77,12 @@ impl<'a> CurvingTangents<'a> {
         sum
     }
 
-    fn place(x: &DVector<f64>, i: usize) -> Place {
-        Place {
-            y: x[i],
-            psi: x[4 + i],
-        }
-    }
-
     /// Derivatives by each constant of the curve at which a limit is met, degrees. `None` if the
     /// equations are singular.
     pub fn limit(&self, limit: Limit, degree: f64) -> Option<Vec<f64>> {
         let curvature = curvature_of_degree(degree);
         let segment = self.model.segment_at(curvature);
-        let x = &segment.at_zero + &segment.per_curvature * curvature;
+        let x = segment.displacements(curvature);
         let coordinates = self.coordinates(curvature)?;
         // |f|² stays what it is: f·(∂f + ∂κ f′) = 0.
         let along = |change: [f64; 2], slope: [f64; 2], f: [f64; 2]| {
@@ -103,10 +96,10 @@ impl<'a> CurvingTangents<'a> {
             }
             Limit::Slip(i, side) => {
                 let creep =
-                    |model: &CurvingModel| model.creep(Self::place(&x, i), curvature, 1.0, side);
-                let slope = Self::place(&segment.per_curvature, i);
+                    |model: &CurvingModel| model.creep(Place::of(&x, i), curvature, 1.0, side);
+                let slope = Place::of(&segment.per_curvature, i);
                 let slope = self.model.creep(slope, 1.0, 0.0, side);
-                let moved = self.model.creep(Self::place(dx, i), 0.0, 0.0, side);
+                let moved = self.model.creep(Place::of(dx, i), 0.0, 0.0, side);
                 let own = self.explicit(p, creep);
                 along(
                     [moved[0] + own[0], moved[1] + own[1]],
@@ -123,7 +116,7 @@ impl<'a> CurvingTangents<'a> {
     pub fn wheels(&self, degree: f64, degrees: &[f64]) -> Option<Vec<[[WheelChange; 2]; 4]>> {
         let curvature = curvature_of_degree(degree);
         let segment = self.model.segment_at(curvature);
-        let x = &segment.at_zero + &segment.per_curvature * curvature;
+        let x = segment.displacements(curvature);
         let coordinates = self.coordinates(curvature)?;
         let all = coordinates.iter().zip(degrees).enumerate();
         let changes = all.map(|(p, (dx, degrees))| {
@@ -131,7 +124,7 @@ impl<'a> CurvingTangents<'a> {
             let dx = dx + &segment.per_curvature * further;
             std::array::from_fn(|i| {
                 Side::BOTH.map(|side| {
-                    let (place, moved) = (Self::place(&x, i), Self::place(&dx, i));
+                    let (place, moved) = (Place::of(&x, i), Place::of(&dx, i));
                     let forces = |model: &CurvingModel| {
                         let [f_x, f_y] = model.creep(place, curvature, 1.0, side);
                         [f_x, f_y, model.normal(place, 1.0, side)]

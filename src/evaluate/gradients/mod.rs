@@ -21,19 +21,22 @@ use crate::{
 };
 use stencil::Stencil;
 
+/// Slope in the middle of the polynomial through five values, from those at −2, −1, 1 and 2 steps.
+pub fn five_point([a, b, c, d]: [f64; 4], step: f64) -> f64 {
+    ((a - d) + 8.0 * (c - b)) / (12.0 * step)
+}
+
 /// Constants by which indices are differentiated, at a case.
 #[derive(Debug, Clone)]
-pub struct Constants<'a> {
-    case: &'a Case,
+pub struct Constants {
     stencils: Vec<(Parameter, Stencil)>,
 }
 
-impl<'a> Constants<'a> {
+impl Constants {
     /// Some of [`Parameter::TEN`].
-    pub fn new(case: &'a Case, constants: &[Parameter]) -> Self {
+    pub fn new(case: &Case, constants: &[Parameter]) -> Self {
         let stencil = |constant: &Parameter| (*constant, Stencil::new(case, *constant));
         Self {
-            case,
             stencils: constants.iter().map(stencil).collect(),
         }
     }
@@ -51,11 +54,6 @@ impl<'a> Constants<'a> {
     /// Which.
     pub fn parameters(&self) -> impl Iterator<Item = Parameter> + '_ {
         self.stencils.iter().map(|(constant, _)| *constant)
-    }
-
-    /// The case.
-    pub fn case(&self) -> &Case {
-        self.case
     }
 
     /// Derivatives of the lateral model.

@@ -36,13 +36,6 @@ pub fn by_speed(system: &LinearSystem, v: f64, mode: &Mode) -> Complex<f64> {
     -mode.eigenvalue * mode.left.dotc(&force) / weight(system, v, mode)
 }
 
-/// Change of the damping ratio −Re s/|s| with that of the eigenvalue.
-pub fn damping_ratio(s: Complex<f64>, change: Complex<f64>) -> f64 {
-    let size = s.norm();
-    let growth = (s.re * change.re + s.im * change.im) / size;
-    (s.re * growth / size - change.re) / size
-}
-
 /// ∂V by each constant of the speed at which a mode loses its damping.
 pub fn critical_speed(
     system: &LinearSystem,

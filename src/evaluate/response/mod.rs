@@ -33,7 +33,6 @@ pub struct Response<'a> {
     stiffness: Stiffness,
     factors: Factors,
     excitations: Vec<Excited>,
-    constants: usize,
 }
 
 /// One excitation: what it puts on the coordinates, what outputs it reaches, and the response.
@@ -41,7 +40,8 @@ struct Excited {
     forces: Vec<Force>,
     outputs: Vec<OutputTerms>,
     q: Vec<Lanes>,
-    tangents: Vec<Tangent>,
+    /// `None`: nothing changes.
+    tangents: Vec<Option<Tangent>>,
     /// Derivative of q, and the outputs.
     dq: Vec<Lanes>,
     transfers: Vec<Lanes>,
@@ -90,7 +90,6 @@ impl<'a> Response<'a> {
             track,
             speed,
             outputs,
-            constants: 0,
         }
     }
 
@@ -104,21 +103,22 @@ impl<'a> Response<'a> {
                     terms::tangents(&tangent.system, order, excitation, self.speed);
                 let outputs = tangent.outputs[self.outputs.clone()].iter();
                 let terms = |output| OutputTerms::new(output, excitation, order);
-                Tangent {
+                let tangent = Tangent {
                     forces,
                     couplings,
                     outputs: outputs.map(|output| output.as_ref().map(terms)).collect(),
-                }
+                };
+                (!tangent.is_zero()).then_some(tangent)
             };
             excited.tangents = tangents.iter().map(of).collect();
         }
-        self.constants = tangents.len();
         self
     }
 
     /// Number of design constants by which it is differentiated.
     pub fn constants(&self) -> usize {
-        self.constants
+        let tangents = self.excitations.first().map(|excited| &excited.tangents);
+        tangents.map_or(0, Vec::len)
     }
 
     /// Number of its outputs.
@@ -224,9 +224,9 @@ impl WithSimd for Batch<'_, '_> {
             }
             let derivatives = self.derivatives.chunks_exact_mut(outputs.len());
             for (tangent, derivatives) in tangents.iter().zip(derivatives) {
-                if tangent.is_zero() {
+                let Some(tangent) = tangent else {
                     continue;
-                }
+                };
                 // D ∂q = −∂D q − (iω ∂C_u + ∂K_u) u
                 dq.fill(Lanes::ZERO);
                 add_forces(dq, &tangent.forces, &omega, &phases);
