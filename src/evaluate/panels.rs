@@ -14,13 +14,13 @@ use crate::{
     dynamics::{ForcedModel, Poles},
 };
 
-/// Sum of the distances of a pole from the two ends of a panel, at least, over its width. For the
-/// 15-point rule it leaves an error of about 1e-8.
-const CLEARANCE: f64 = 1.3;
+/// Sum of the distances of a pole from the two ends of a panel, at least, over its width: half the
+/// sum of the ellipse's axes is then 1.78 times half the panel. It leaves an error of 1e-7 or less.
+const CLEARANCE: f64 = 1.17;
 /// Ratio of the ends of a panel.
-const RATIO: f64 = 2.5;
+const RATIO: f64 = 4.0;
 /// Phase between first and last wheelset over half a panel, rad.
-const PHASE: f64 = 7.0;
+const PHASE: f64 = 10.0;
 /// A rest of the range as short as this goes to the last panel.
 const REST: f64 = 1e-3;
 

@@ -1,27 +1,63 @@
 //! Complex numbers side by side: the same operation on several systems at once.
 
 use nalgebra::Complex;
+use pulp::Simd;
 
 /// Systems that are treated together: the width of the widest vector unit in use, or twice or four
 /// times that of narrower ones.
 pub const LANES: usize = 8;
+
+/// [`LANES`] real numbers.
+pub type Reals = [f64; LANES];
 
 /// [`LANES`] complex numbers, real and imaginary parts apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
 pub struct Lanes {
     /// Real parts.
-    pub re: [f64; LANES],
+    pub re: Reals,
     /// Imaginary parts.
-    pub im: [f64; LANES],
+    pub im: Reals,
 }
 
-/// Applies a function lane by lane. Arguments are taken by value: what is read cannot then be what
-/// is written, and the compiler keeps to whole vectors.
-#[allow(clippy::inline_always)]
-#[inline(always)]
-pub fn each(f: impl FnMut(usize) -> f64) -> [f64; LANES] {
-    std::array::from_fn(f)
+/// Operations on real numbers lane by lane, in whole vectors. Without closures: one that is not
+/// compiled into its caller knows nothing of the vector unit.
+macro_rules! lane_by_lane {
+    ($($(#[$doc:meta])+ $name:ident($($of:ident),+) $operation:ident)+) => {$(
+        $(#[$doc])+
+        #[allow(clippy::inline_always)]
+        #[inline(always)]
+        pub fn $name<S: Simd>(simd: S, $($of: &Reals),+) -> Reals {
+            $(let $of = S::as_simd_f64s($of).0;)+
+            let mut values = [0.0; LANES];
+            let vectors = S::as_mut_simd_f64s(&mut values).0;
+            for k in 0..vectors.len() {
+                vectors[k] = simd.$operation($($of[k]),+);
+            }
+            values
+        }
+    )+};
+}
+
+lane_by_lane! {
+    /// a + b.
+    add(a, b) add_f64s
+    /// a b.
+    mul(a, b) mul_f64s
+    /// a b + c.
+    mul_add(a, b, c) mul_add_f64s
+    /// c − a b.
+    mul_subtracted(a, b, c) negate_mul_add_f64s
+    /// a/b.
+    div(a, b) div_f64s
+    /// The smaller of two.
+    min(a, b) min_f64s
+    /// −a.
+    neg(a) neg_f64s
+    /// |a|.
+    abs(a) abs_f64s
+    /// √a.
+    sqrt(a) sqrt_f64s
 }
 
 // What works on lanes must be compiled into its caller, where the vector unit is known.
@@ -30,6 +66,12 @@ impl Lanes {
     /// Zero in all lanes.
     pub const ZERO: Self = Self {
         re: [0.0; LANES],
+        im: [0.0; LANES],
+    };
+
+    /// One in all lanes.
+    pub const ONE: Self = Self {
+        re: [1.0; LANES],
         im: [0.0; LANES],
     };
 
@@ -53,68 +95,73 @@ impl Lanes {
     /// self + a b.
     #[inline(always)]
     #[must_use]
-    pub fn plus_product(self, a: Self, b: Self) -> Self {
+    pub fn plus_product<S: Simd>(&self, simd: S, a: &Self, b: &Self) -> Self {
+        let re = mul_add(simd, &a.re, &b.re, &self.re);
+        let im = mul_add(simd, &a.re, &b.im, &self.im);
         Self {
-            re: each(|l| (-a.im[l]).mul_add(b.im[l], a.re[l].mul_add(b.re[l], self.re[l]))),
-            im: each(|l| a.im[l].mul_add(b.re[l], a.re[l].mul_add(b.im[l], self.im[l]))),
+            re: mul_subtracted(simd, &a.im, &b.im, &re),
+            im: mul_add(simd, &a.im, &b.re, &im),
         }
     }
 
     /// self − a b.
     #[inline(always)]
     #[must_use]
-    pub fn minus_product(self, a: Self, b: Self) -> Self {
+    pub fn minus_product<S: Simd>(&self, simd: S, a: &Self, b: &Self) -> Self {
+        let re = mul_subtracted(simd, &a.re, &b.re, &self.re);
+        let im = mul_subtracted(simd, &a.re, &b.im, &self.im);
         Self {
-            re: each(|l| a.im[l].mul_add(b.im[l], (-a.re[l]).mul_add(b.re[l], self.re[l]))),
-            im: each(|l| (-a.im[l]).mul_add(b.re[l], (-a.re[l]).mul_add(b.im[l], self.im[l]))),
+            re: mul_add(simd, &a.im, &b.im, &re),
+            im: mul_subtracted(simd, &a.im, &b.re, &im),
         }
     }
 
     /// self + a b with real numbers.
     #[inline(always)]
     #[must_use]
-    pub fn plus_scaled(self, a: [f64; LANES], b: Self) -> Self {
+    pub fn plus_scaled<S: Simd>(&self, simd: S, a: &Reals, b: &Self) -> Self {
         Self {
-            re: each(|l| a[l].mul_add(b.re[l], self.re[l])),
-            im: each(|l| a[l].mul_add(b.im[l], self.im[l])),
+            re: mul_add(simd, a, &b.re, &self.re),
+            im: mul_add(simd, a, &b.im, &self.im),
         }
     }
 
     /// a self with real numbers.
     #[inline(always)]
     #[must_use]
-    pub fn scaled(self, a: [f64; LANES]) -> Self {
+    pub fn scaled<S: Simd>(&self, simd: S, a: &Reals) -> Self {
         Self {
-            re: each(|l| a[l] * self.re[l]),
-            im: each(|l| a[l] * self.im[l]),
+            re: mul(simd, a, &self.re),
+            im: mul(simd, a, &self.im),
         }
     }
 
     /// self b.
     #[inline(always)]
     #[must_use]
-    pub fn times(self, b: Self) -> Self {
+    pub fn times<S: Simd>(&self, simd: S, b: &Self) -> Self {
+        let re = mul(simd, &self.re, &b.re);
+        let im = mul(simd, &self.re, &b.im);
         Self {
-            re: each(|l| (-self.im[l]).mul_add(b.im[l], self.re[l] * b.re[l])),
-            im: each(|l| self.im[l].mul_add(b.re[l], self.re[l] * b.im[l])),
+            re: mul_subtracted(simd, &self.im, &b.im, &re),
+            im: mul_add(simd, &self.im, &b.re, &im),
         }
     }
 
     /// 1/self.
     #[inline(always)]
     #[must_use]
-    pub fn inverse(self) -> Self {
-        let norm = self.norm_sqr();
-        let scale = each(|l| 1.0 / norm[l]);
+    pub fn inverse<S: Simd>(&self, simd: S) -> Self {
+        let scale = div(simd, &[1.0; LANES], &self.norm_sqr(simd));
         Self {
-            re: each(|l| self.re[l] * scale[l]),
-            im: each(|l| -self.im[l] * scale[l]),
+            re: mul(simd, &self.re, &scale),
+            im: mul(simd, &neg(simd, &self.im), &scale),
         }
     }
 
     /// |self|².
     #[inline(always)]
-    pub fn norm_sqr(self) -> [f64; LANES] {
-        each(|l| self.im[l].mul_add(self.im[l], self.re[l] * self.re[l]))
+    pub fn norm_sqr<S: Simd>(&self, simd: S) -> Reals {
+        mul_add(simd, &self.im, &self.im, &mul(simd, &self.re, &self.re))
     }
 }

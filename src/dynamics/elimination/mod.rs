@@ -4,9 +4,9 @@
 //! elimination from the wheelsets to the carbody therefore touches few entries: the pattern is
 //! worked out once for a model, and then run for many frequencies at once.
 
-mod lanes;
+pub mod lanes;
 mod pattern;
 mod stiffness;
 
-pub use lanes::{LANES, Lanes, each};
+pub use lanes::{LANES, Lanes, Reals};
 pub use stiffness::{Factors, Stiffness};

@@ -1,6 +1,8 @@
 //! Which entries an elimination touches, and the elimination itself.
 
-use super::lanes::{LANES, Lanes, each};
+use pulp::Simd;
+
+use super::lanes::{LANES, Lanes, Reals, abs, add, div, min, mul_subtracted};
 
 /// Order of pivots and entries to be worked on, for all matrices with nonzeros in the same places.
 ///
@@ -15,14 +17,17 @@ pub struct Pattern {
     /// Entries below and right of the pivots.
     lower: Vec<Entry>,
     upper: Vec<Entry>,
-    /// Slots a, l, u of a −= l u.
-    updates: Vec<[u16; 3]>,
+    /// Slots a of a −= l u, for each l below a pivot those of all u to its right.
+    updates: Vec<u16>,
     count: usize,
 }
 
 /// Square of the share of a diagonal entry below which a pivot is too small: ten of sixteen digits
 /// remain.
 const LOST: f64 = 1e-12;
+/// Inverse pivots that are multiplied before the product is scaled: this many of the smallest, of a carbody
+/// at the highest frequencies, 1e-17, leave it far above the least number there is.
+const UNSCALED: usize = 5;
 
 #[derive(Debug, Clone, Copy)]
 struct Entry {
@@ -110,12 +115,8 @@ impl Pattern {
         self.upper
             .extend(bits(right).filter_map(|j| entry(j, k, j)));
         for i in bits(below) {
-            for j in bits(right) {
-                let [a, b, c] = [(i, j), (i, k), (k, j)].map(|(i, j)| slots[i * n + j]);
-                if let (Some(a), Some(b), Some(c)) = (a, b, c) {
-                    self.updates.push([a, b, c]);
-                }
-            }
+            self.updates
+                .extend(bits(right).filter_map(|j| slots[i * n + j]));
         }
         self.pivots.push(Pivot {
             coordinate: k,
@@ -144,24 +145,33 @@ impl Pattern {
     /// Factors L U in place, the inverse pivots on the diagonal. `diagonal` gets the squares of the
     /// diagonal before. Returns false in lanes where a pivot has lost digits against it.
     #[inline(always)]
-    pub fn factor(&self, a: &mut [Lanes], diagonal: &mut [[f64; LANES]]) -> [bool; LANES] {
+    pub fn factor<S: Simd>(
+        &self,
+        simd: S,
+        a: &mut [Lanes],
+        diagonal: &mut [Reals],
+    ) -> [bool; LANES] {
         for (pivot, size) in self.pivots.iter().zip(diagonal.iter_mut()) {
-            *size = a[pivot.slot].norm_sqr();
+            *size = a[pivot.slot].norm_sqr(simd);
         }
         let mut margin = [f64::INFINITY; LANES];
         for (pivot, size) in self.pivots.iter().zip(diagonal) {
-            let (left, size) = (a[pivot.slot].norm_sqr(), *size);
-            margin = each(|l| margin[l].min((-LOST).mul_add(size[l], left[l])));
-            let inverse = a[pivot.slot].inverse();
+            let left = a[pivot.slot].norm_sqr(simd);
+            let above = mul_subtracted(simd, &[LOST; LANES], size, &left);
+            margin = min(simd, &margin, &above);
+            let inverse = a[pivot.slot].inverse(simd);
             a[pivot.slot] = inverse;
+            let upper = &self.upper[pivot.upper.clone()];
+            let mut updates = self.updates[pivot.updates.clone()].iter();
             for entry in &self.lower[pivot.lower.clone()] {
                 let slot = usize::from(entry.slot);
-                a[slot] = a[slot].times(inverse);
-            }
-            for [target, l, u] in &self.updates[pivot.updates.clone()] {
-                let (l, u) = (a[usize::from(*l)], a[usize::from(*u)]);
-                let target = usize::from(*target);
-                a[target] = a[target].minus_product(l, u);
+                let multiple = a[slot].times(simd, &inverse);
+                a[slot] = multiple;
+                for (right, target) in upper.iter().zip(&mut updates) {
+                    let target = usize::from(*target);
+                    let right = &a[usize::from(right.slot)];
+                    a[target] = a[target].minus_product(simd, &multiple, right);
+                }
             }
         }
         margin.map(|m| m > 0.0)
@@ -169,13 +179,14 @@ impl Pattern {
 
     /// Direction of the determinant in the complex plane, from the factors.
     #[inline(always)]
-    pub fn determinant(&self, a: &[Lanes]) -> Lanes {
-        let mut product = Lanes::ZERO;
-        product.re = [1.0; LANES];
-        for pivot in &self.pivots {
-            product = product.times(a[pivot.slot]);
-            let size = each(|l| product.re[l].abs() + product.im[l].abs());
-            product = product.scaled(each(|l| 1.0 / size[l]));
+    pub fn determinant<S: Simd>(&self, simd: S, a: &[Lanes]) -> Lanes {
+        let mut product = Lanes::ONE;
+        for pivots in self.pivots.chunks(UNSCALED) {
+            for pivot in pivots {
+                product = product.times(simd, &a[pivot.slot]);
+            }
+            let size = add(simd, &abs(simd, &product.re), &abs(simd, &product.im));
+            product = product.scaled(simd, &div(simd, &[1.0; LANES], &size));
         }
         product.im = product.im.map(|im| -im);
         product
@@ -183,40 +194,40 @@ impl Pattern {
 
     /// x ← A⁻¹ x with the factors of [`Pattern::factor`].
     #[inline(always)]
-    pub fn solve(&self, a: &[Lanes], x: &mut [Lanes]) {
+    pub fn solve<S: Simd>(&self, simd: S, a: &[Lanes], x: &mut [Lanes]) {
         for pivot in &self.pivots {
             let known = x[pivot.coordinate];
             for entry in &self.lower[pivot.lower.clone()] {
                 let i = usize::from(entry.coordinate);
-                x[i] = x[i].minus_product(a[usize::from(entry.slot)], known);
+                x[i] = x[i].minus_product(simd, &a[usize::from(entry.slot)], &known);
             }
         }
         for pivot in self.pivots.iter().rev() {
             let mut sum = x[pivot.coordinate];
             for entry in &self.upper[pivot.upper.clone()] {
-                let other = x[usize::from(entry.coordinate)];
-                sum = sum.minus_product(a[usize::from(entry.slot)], other);
+                let other = &x[usize::from(entry.coordinate)];
+                sum = sum.minus_product(simd, &a[usize::from(entry.slot)], other);
             }
-            x[pivot.coordinate] = sum.times(a[pivot.slot]);
+            x[pivot.coordinate] = sum.times(simd, &a[pivot.slot]);
         }
     }
 
     /// x ← A⁻ᵀ x.
     #[inline(always)]
-    pub fn solve_transposed(&self, a: &[Lanes], x: &mut [Lanes]) {
+    pub fn solve_transposed<S: Simd>(&self, simd: S, a: &[Lanes], x: &mut [Lanes]) {
         for pivot in &self.pivots {
-            let known = x[pivot.coordinate].times(a[pivot.slot]);
+            let known = x[pivot.coordinate].times(simd, &a[pivot.slot]);
             x[pivot.coordinate] = known;
             for entry in &self.upper[pivot.upper.clone()] {
                 let i = usize::from(entry.coordinate);
-                x[i] = x[i].minus_product(a[usize::from(entry.slot)], known);
+                x[i] = x[i].minus_product(simd, &a[usize::from(entry.slot)], &known);
             }
         }
         for pivot in self.pivots.iter().rev() {
             let mut sum = x[pivot.coordinate];
             for entry in &self.lower[pivot.lower.clone()] {
-                let other = x[usize::from(entry.coordinate)];
-                sum = sum.minus_product(a[usize::from(entry.slot)], other);
+                let other = &x[usize::from(entry.coordinate)];
+                sum = sum.minus_product(simd, &a[usize::from(entry.slot)], other);
             }
             x[pivot.coordinate] = sum;
         }

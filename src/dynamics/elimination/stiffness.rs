@@ -1,7 +1,9 @@
 //! Dynamic stiffness of a model, factored for several frequencies at once.
 
+use pulp::Simd;
+
 use super::{
-    lanes::{LANES, Lanes, each},
+    lanes::{LANES, Lanes, Reals, div, mul, mul_add},
     pattern::Pattern,
 };
 use crate::dynamics::LinearSystem;
@@ -35,8 +37,8 @@ struct Entry {
 pub struct Factors {
     a: Vec<Lanes>,
     /// C at the speeds, entry by entry.
-    damping: Vec<[f64; LANES]>,
-    diagonal: Vec<[f64; LANES]>,
+    damping: Vec<Reals>,
+    diagonal: Vec<Reals>,
     /// Lanes in which no digits were lost.
     pub sound: [bool; LANES],
 }
@@ -100,62 +102,60 @@ impl Stiffness {
 
     /// Takes C at speeds `v`, m/s.
     #[inline(always)]
-    pub fn set_speeds(&self, v: &[f64; LANES], factors: &mut Factors) {
-        let v = *v;
-        let slowness = v.map(|v| 1.0 / v);
+    pub fn set_speeds<S: Simd>(&self, simd: S, v: &Reals, factors: &mut Factors) {
+        let slowness = div(simd, &[1.0; LANES], v);
         for (entry, damping) in self.entries.iter().zip(&mut factors.damping) {
             let [c0, c1, c2] = entry.c;
-            *damping = each(|l| c2.mul_add(v[l], c1.mul_add(slowness[l], c0)));
+            let slow = mul_add(simd, &[c1; LANES], &slowness, &[c0; LANES]);
+            *damping = mul_add(simd, &[c2; LANES], v, &slow);
         }
     }
 
     /// Factors D(s) at the speeds set.
     #[inline(always)]
-    pub fn factor(&self, s: Lanes, factors: &mut Factors) {
-        let square = s.times(s);
+    pub fn factor<S: Simd>(&self, simd: S, s: &Lanes, factors: &mut Factors) {
+        let square = s.times(simd, s);
         for &slot in &self.empty {
             factors.a[slot] = Lanes::ZERO;
         }
         for (entry, c) in self.entries.iter().zip(&factors.damping) {
-            let (c, Entry { k, m, .. }) = (*c, *entry);
-            factors.a[entry.slot] = if m == 0.0 {
-                Lanes {
-                    re: each(|l| c[l].mul_add(s.re[l], k)),
-                    im: each(|l| c[l] * s.im[l]),
-                }
-            } else {
-                Lanes {
-                    re: each(|l| m.mul_add(square.re[l], c[l].mul_add(s.re[l], k))),
-                    im: each(|l| m.mul_add(square.im[l], c[l] * s.im[l])),
-                }
+            factors.a[entry.slot] = Lanes {
+                re: mul_add(simd, c, &s.re, &[entry.k; LANES]),
+                im: mul(simd, c, &s.im),
             };
         }
-        factors.sound = self.pattern.factor(&mut factors.a, &mut factors.diagonal);
+        for &k in &self.massive {
+            let Entry { slot, m, .. } = self.entries[k];
+            factors.a[slot] = factors.a[slot].plus_scaled(simd, &[m; LANES], &square);
+        }
+        let Factors { a, diagonal, .. } = factors;
+        factors.sound = self.pattern.factor(simd, a, diagonal);
     }
 
     /// x ← D⁻¹ x.
     #[inline(always)]
-    pub fn solve(&self, factors: &Factors, x: &mut [Lanes]) {
-        self.pattern.solve(&factors.a, x);
+    pub fn solve<S: Simd>(&self, simd: S, factors: &Factors, x: &mut [Lanes]) {
+        self.pattern.solve(simd, &factors.a, x);
     }
 
     /// x ← D⁻ᵀ x.
     #[inline(always)]
-    pub fn solve_transposed(&self, factors: &Factors, x: &mut [Lanes]) {
-        self.pattern.solve_transposed(&factors.a, x);
+    pub fn solve_transposed<S: Simd>(&self, simd: S, factors: &Factors, x: &mut [Lanes]) {
+        self.pattern.solve_transposed(simd, &factors.a, x);
     }
 
     /// Direction of det D in the complex plane, of length about one.
     #[inline(always)]
-    pub fn determinant(&self, factors: &Factors) -> Lanes {
-        self.pattern.determinant(&factors.a)
+    pub fn determinant<S: Simd>(&self, simd: S, factors: &Factors) -> Lanes {
+        self.pattern.determinant(simd, &factors.a)
     }
 
     /// D′ x and D′ᵀ y at the speeds set, with D′ = ∂D/∂s = 2 s M + C(V).
     #[inline(always)]
-    pub fn derivative_times(
+    pub fn derivative_times<S: Simd>(
         &self,
-        s: Lanes,
+        simd: S,
+        s: &Lanes,
         factors: &Factors,
         [x, y]: [&[Lanes]; 2],
         [dx, dy]: [&mut [Lanes]; 2],
@@ -163,33 +163,32 @@ impl Stiffness {
         dx.fill(Lanes::ZERO);
         dy.fill(Lanes::ZERO);
         for &k in &self.massive {
-            let (entry, c) = (self.entries[k], factors.damping[k]);
-            let (i, m) = (entry.row, 2.0 * entry.m);
-            let d = Lanes {
-                re: each(|l| m.mul_add(s.re[l], c[l])),
-                im: each(|l| m * s.im[l]),
+            let (Entry { row, m, .. }, c) = (self.entries[k], factors.damping[k]);
+            let damping = Lanes {
+                re: c,
+                im: [0.0; LANES],
             };
-            dx[i] = dx[i].plus_product(d, x[i]);
-            dy[i] = dy[i].plus_product(d, y[i]);
+            let d = damping.plus_scaled(simd, &[2.0 * m; LANES], s);
+            dx[row] = dx[row].plus_product(simd, &d, &x[row]);
+            dy[row] = dy[row].plus_product(simd, &d, &y[row]);
         }
         for &k in &self.damped {
-            let (Entry { row, column, .. }, c) = (self.entries[k], factors.damping[k]);
-            dx[row] = dx[row].plus_scaled(c, x[column]);
-            dy[column] = dy[column].plus_scaled(c, y[row]);
+            let (Entry { row, column, .. }, c) = (self.entries[k], &factors.damping[k]);
+            dx[row] = dx[row].plus_scaled(simd, c, &x[column]);
+            dy[column] = dy[column].plus_scaled(simd, c, &y[row]);
         }
     }
 
     /// yᵀ V ∂D/∂V x / s = yᵀ (C2 V − C1/V) x.
     #[inline(always)]
-    pub fn by_speed(&self, v: &[f64; LANES], x: &[Lanes], y: &[Lanes]) -> Lanes {
-        let v = *v;
-        let slowness = v.map(|v| 1.0 / v);
+    pub fn by_speed<S: Simd>(&self, simd: S, v: &Reals, x: &[Lanes], y: &[Lanes]) -> Lanes {
+        let slowness = div(simd, &[-1.0; LANES], v);
         let mut sum = Lanes::ZERO;
         for &k in &self.by_speed {
             let Entry { row, column, c, .. } = self.entries[k];
-            let [_, c1, c2] = c;
-            let c = each(|l| c2.mul_add(v[l], -c1 * slowness[l]));
-            sum = sum.plus_scaled(c, y[row].times(x[column]));
+            let creep = mul(simd, &[c[1]; LANES], &slowness);
+            let c = mul_add(simd, &[c[2]; LANES], v, &creep);
+            sum = sum.plus_scaled(simd, &c, &y[row].times(simd, &x[column]));
         }
         sum
     }

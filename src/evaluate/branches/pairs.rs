@@ -6,7 +6,10 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::{
     dynamics::{
         LinearSystem,
-        elimination::{Factors, LANES, Lanes, Stiffness, each},
+        elimination::{
+            Factors, LANES, Lanes, Reals, Stiffness,
+            lanes::{add, div, sqrt},
+        },
     },
     evaluate::mode::Mode,
 };
@@ -230,7 +233,7 @@ impl WithSimd for Step<'_> {
 
     #[allow(clippy::inline_always)] // Where the vector unit is known.
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let Refiner {
             stiffness,
             factors,
@@ -247,38 +250,38 @@ impl WithSimd for Step<'_> {
             dx,
             dy,
         } = self.pairs;
-        stiffness.set_speeds(speed, factors);
-        stiffness.factor(*s, factors);
+        stiffness.set_speeds(simd, speed, factors);
+        stiffness.factor(simd, s, factors);
         residual.copy_from_slice(dx);
         x.copy_from_slice(dx);
         y.copy_from_slice(dy);
-        stiffness.solve(factors, x);
-        stiffness.solve_transposed(factors, y);
-        let scale = normalise(x);
-        normalise(y);
-        stiffness.derivative_times(*s, factors, [x, y], [dx, dy]);
-        let (rest, weight) = (dot(y, residual), dot(y, dx).inverse());
-        let turn = s.times(stiffness.by_speed(speed, x, y)).times(weight);
-        *slope = turn.scaled([-1.0; LANES]);
-        let step = rest.times(weight).scaled(scale);
-        *s = s.plus_scaled([-1.0; LANES], step);
-        let (moved, size) = (step.norm_sqr(), s.norm_sqr());
-        *change = each(|l| (moved[l] / size[l]).sqrt());
+        stiffness.solve(simd, factors, x);
+        stiffness.solve_transposed(simd, factors, y);
+        let scale = normalise(simd, x);
+        normalise(simd, y);
+        stiffness.derivative_times(simd, s, factors, [x, y], [dx, dy]);
+        let (rest, weight) = (dot(simd, y, residual), dot(simd, y, dx).inverse(simd));
+        let by_speed = stiffness.by_speed(simd, speed, x, y);
+        let turn = s.times(simd, &by_speed).times(simd, &weight);
+        *slope = turn.scaled(simd, &[-1.0; LANES]);
+        let step = rest.times(simd, &weight).scaled(simd, &scale);
+        *s = s.plus_scaled(simd, &[-1.0; LANES], &step);
+        let (moved, size) = (step.norm_sqr(simd), s.norm_sqr(simd));
+        *change = sqrt(simd, &div(simd, &moved, &size));
     }
 }
 
 /// Scales to length one; returns the factor.
 #[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
 #[inline(always)]
-fn normalise(x: &mut [Lanes]) -> [f64; LANES] {
+fn normalise<S: Simd>(simd: S, x: &mut [Lanes]) -> Reals {
     let mut sum = [0.0; LANES];
     for x in x.iter() {
-        let square = x.norm_sqr();
-        sum = each(|l| sum[l] + square[l]);
+        sum = add(simd, &sum, &x.norm_sqr(simd));
     }
-    let scale = each(|l| 1.0 / sum[l].sqrt());
+    let scale = div(simd, &[1.0; LANES], &sqrt(simd, &sum));
     for x in x {
-        *x = x.scaled(scale);
+        *x = x.scaled(simd, &scale);
     }
     scale
 }
@@ -286,10 +289,10 @@ fn normalise(x: &mut [Lanes]) -> [f64; LANES] {
 /// yᵀ x.
 #[allow(clippy::inline_always)]
 #[inline(always)]
-fn dot(y: &[Lanes], x: &[Lanes]) -> Lanes {
+fn dot<S: Simd>(simd: S, y: &[Lanes], x: &[Lanes]) -> Lanes {
     let mut sum = Lanes::ZERO;
     for (y, x) in y.iter().zip(x) {
-        sum = sum.plus_product(*y, *x);
+        sum = sum.plus_product(simd, y, x);
     }
     sum
 }

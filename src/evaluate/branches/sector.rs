@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::Complex;
-use pulp::{Simd, WithSimd};
+use pulp::{Scalar, Simd, WithSimd};
 
 use super::pairs::Refiner;
 use crate::dynamics::elimination::{Factors, LANES, Lanes, Stiffness};
@@ -67,7 +67,7 @@ fn walk(
     };
     // ln |s|
     let mut at = low + START.ln();
-    stiffness.set_speeds(&[speed; LANES], factors);
+    stiffness.set_speeds(Scalar::new(), &[speed; LANES], factors);
     let mut walk = Walk {
         turned: 0.0,
         last: None,
@@ -113,14 +113,14 @@ impl WithSimd for Steps<'_> {
 
     #[allow(clippy::inline_always)] // Where the vector unit is known.
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let mut s = Lanes::ZERO;
         for l in 0..LANES {
             s.re[l] = self.radii[l] * self.direction.0;
             s.im[l] = self.radii[l] * self.direction.1;
         }
-        self.stiffness.factor(s, self.factors);
-        let determinant = self.stiffness.determinant(self.factors);
+        self.stiffness.factor(simd, &s, self.factors);
+        let determinant = self.stiffness.determinant(simd, self.factors);
         for l in 0..LANES {
             let (re, im) = (determinant.re[l], determinant.im[l]);
             let turn = match self.walk.last {

@@ -11,16 +11,19 @@ mod terms;
 
 use std::{f64::consts::TAU, ops::Range};
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Arch, Scalar, Simd, WithSimd};
 
 use crate::{
     dynamics::{
         ForcedModel, ForcedTangent,
-        elimination::{Factors, LANES, Lanes, Stiffness, each},
+        elimination::{
+            Factors, LANES, Lanes, Reals, Stiffness,
+            lanes::{mul, mul_add},
+        },
     },
     track::Track,
 };
-use terms::{Coupling, Force, OutputTerms, Source};
+use terms::{Coupling, Force, Moving, OutputTerms};
 
 /// A forced model at one speed, ready to be evaluated at many frequencies, [`LANES`] at a time,
 /// without allocation.
@@ -72,7 +75,7 @@ impl<'a> Response<'a> {
         let system = &model.system;
         let stiffness = Stiffness::new(system);
         let mut factors = stiffness.factors();
-        stiffness.set_speeds(&[speed; LANES], &mut factors);
+        stiffness.set_speeds(Scalar::new(), &[speed; LANES], &mut factors);
         let excitations = model.excitations.iter().map(|excitation| Excited {
             forces: terms::forces(system, excitation, speed),
             outputs: terms::outputs(model, excitation, outputs.clone()),
@@ -127,7 +130,7 @@ impl<'a> Response<'a> {
     }
 
     /// Power spectral densities of the outputs at frequencies `f` in Hz, one-sided, per Hz.
-    pub fn densities(&mut self, f: &[f64; LANES], densities: &mut [[f64; LANES]]) {
+    pub fn densities(&mut self, f: &Reals, densities: &mut [Reals]) {
         self.with_derivatives(f, densities, &mut []);
     }
 
@@ -135,9 +138,9 @@ impl<'a> Response<'a> {
     /// the second, and so on; as many as there is room for.
     pub fn with_derivatives(
         &mut self,
-        f: &[f64; LANES],
-        densities: &mut [[f64; LANES]],
-        derivatives: &mut [[f64; LANES]],
+        f: &Reals,
+        densities: &mut [Reals],
+        derivatives: &mut [Reals],
     ) {
         let arch = self.arch;
         arch.dispatch(Batch {
@@ -153,7 +156,7 @@ impl<'a> Response<'a> {
 
     /// Goes over the frequencies at which the elimination lost digits; derivatives are left as they are.
     #[cold]
-    fn mend(&self, f: &[f64; LANES], densities: &mut [[f64; LANES]]) {
+    fn mend(&self, f: &Reals, densities: &mut [Reals]) {
         let mut plain = vec![0.0; self.model.outputs.len()];
         for l in (0..LANES).filter(|&l| !self.factors.sound[l]) {
             plain::densities(self.model, self.track, self.speed, f[l], &mut plain);
@@ -167,9 +170,9 @@ impl<'a> Response<'a> {
 
 struct Batch<'r, 'a> {
     response: &'r mut Response<'a>,
-    f: &'r [f64; LANES],
-    densities: &'r mut [[f64; LANES]],
-    derivatives: &'r mut [[f64; LANES]],
+    f: &'r Reals,
+    densities: &'r mut [Reals],
+    derivatives: &'r mut [Reals],
 }
 
 impl WithSimd for Batch<'_, '_> {
@@ -177,7 +180,7 @@ impl WithSimd for Batch<'_, '_> {
 
     #[allow(clippy::inline_always)] // Where the vector unit is known.
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let Response {
             model,
             track,
@@ -192,8 +195,8 @@ impl WithSimd for Batch<'_, '_> {
             re: [0.0; LANES],
             im: omega,
         };
-        stiffness.factor(s, factors);
-        let phases = phases(&omega, &model.lags, *speed);
+        stiffness.factor(simd, &s, factors);
+        let phases = phases(simd, &omega, &model.lags, *speed);
         self.densities.fill([0.0; LANES]);
         self.derivatives.fill([0.0; LANES]);
         for (excited, excitation) in excitations.iter_mut().zip(&model.excitations) {
@@ -206,21 +209,20 @@ impl WithSimd for Batch<'_, '_> {
                 transfers,
             } = excited;
             q.fill(Lanes::ZERO);
-            add_forces(q, forces, &omega, &phases);
-            stiffness.solve(factors, q);
+            add_forces(simd, q, forces, &omega, &phases);
+            stiffness.solve(simd, factors, q);
             // S in time frequency: S(Ω) dΩ/df with Ω = 2πf/V (3.4.2-5, 6).
             let spectrum = track.spectrum(excitation.irregularity);
             let input = omega.map(|omega| spectrum.density(omega / *speed) * TAU / *speed);
+            let x = Moving {
+                coordinates: q,
+                rails: &phases,
+            };
             let all = transfers.iter_mut().zip(outputs.iter());
             for (density, (kept, output)) in self.densities.iter_mut().zip(all) {
-                let transfer = output.transfer(omega, |source| match source {
-                    Source::Coordinate(i) => q[i],
-                    Source::Wheelset(i) => phases[i],
-                });
+                let transfer = output.transfer(simd, &omega, x);
                 *kept = transfer;
-                let square = transfer.norm_sqr();
-                let sum = *density;
-                *density = each(|l| square[l].mul_add(input[l], sum[l]));
+                *density = mul_add(simd, &transfer.norm_sqr(simd), &input, density);
             }
             let derivatives = self.derivatives.chunks_exact_mut(outputs.len());
             for (tangent, derivatives) in tangents.iter().zip(derivatives) {
@@ -229,57 +231,65 @@ impl WithSimd for Batch<'_, '_> {
                 };
                 // D ∂q = −∂D q − (iω ∂C_u + ∂K_u) u
                 dq.fill(Lanes::ZERO);
-                add_forces(dq, &tangent.forces, &omega, &phases);
+                add_forces(simd, dq, &tangent.forces, &omega, &phases);
                 for coupling in &tangent.couplings {
-                    let transmitted = Lanes {
-                        re: [coupling.k; LANES],
-                        im: each(|l| omega[l] * coupling.c),
-                    };
-                    let (row, from) = (coupling.row, q[coupling.column]);
-                    dq[row] = dq[row].plus_product(transmitted, from);
+                    let transmitted = transmitted(simd, coupling.k, coupling.c, &omega);
+                    let (row, from) = (coupling.row, &q[coupling.column]);
+                    dq[row] = dq[row].plus_product(simd, &transmitted, from);
                 }
-                stiffness.solve(factors, dq);
+                stiffness.solve(simd, factors, dq);
+                let dx = Moving {
+                    coordinates: dq,
+                    rails: &[Lanes::ZERO; 4],
+                };
                 for (k, sum) in derivatives.iter_mut().enumerate() {
-                    let mut change = outputs[k].transfer(omega, |source| match source {
-                        Source::Coordinate(i) => dq[i],
-                        Source::Wheelset(_) => Lanes::ZERO,
-                    });
+                    let mut change = outputs[k].transfer(simd, &omega, dx);
                     if let Some(output) = &tangent.outputs[k] {
-                        let own = output.transfer(omega, |source| match source {
-                            Source::Coordinate(i) => q[i],
-                            Source::Wheelset(i) => phases[i],
-                        });
-                        change = change.plus_scaled([1.0; LANES], own);
+                        let own = output.transfer(simd, &omega, x);
+                        change = change.plus_scaled(simd, &[1.0; LANES], &own);
                     }
-                    let (h, before) = (transfers[k], *sum);
                     // ∂|H|² = 2 Re(H̄ ∂H)
-                    let product = each(|l| h.im[l].mul_add(change.im[l], h.re[l] * change.re[l]));
-                    *sum = each(|l| (2.0 * input[l]).mul_add(product[l], before[l]));
+                    let h = &transfers[k];
+                    let product = mul(simd, &h.re, &change.re);
+                    let product = mul_add(simd, &h.im, &change.im, &product);
+                    *sum = mul_add(simd, &mul(simd, &[2.0; LANES], &input), &product, sum);
                 }
             }
         }
     }
 }
 
+/// k + iω c.
+#[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
+#[inline(always)]
+fn transmitted<S: Simd>(simd: S, k: f64, c: f64, omega: &Reals) -> Lanes {
+    Lanes {
+        re: [k; LANES],
+        im: mul(simd, omega, &[c; LANES]),
+    }
+}
+
 /// Adds what the irregularity under the wheelsets puts on the coordinates.
 #[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
 #[inline(always)]
-fn add_forces(q: &mut [Lanes], forces: &[Force], omega: &[f64; LANES], phases: &[Lanes; 4]) {
-    let omega = *omega;
+fn add_forces<S: Simd>(
+    simd: S,
+    q: &mut [Lanes],
+    forces: &[Force],
+    omega: &Reals,
+    phases: &[Lanes; 4],
+) {
     for force in forces {
-        let transmitted = Lanes {
-            re: [force.k; LANES],
-            im: each(|l| omega[l] * force.c),
-        };
+        let transmitted = transmitted(simd, force.k, force.c, omega);
         let q = &mut q[force.coordinate];
-        *q = q.plus_product(transmitted, phases[force.wheelset]);
+        *q = q.plus_product(simd, &transmitted, &phases[force.wheelset]);
     }
 }
 
 /// e^{−iωτ} of the four wheelsets. Wheelset 4 is as far behind 3 as 2 behind 1.
 #[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
 #[inline(always)]
-fn phases(omega: &[f64; LANES], lags: &[f64; 4], speed: f64) -> [Lanes; 4] {
+fn phases<S: Simd>(simd: S, omega: &Reals, lags: &[f64; 4], speed: f64) -> [Lanes; 4] {
     let delayed = |lag: f64| {
         let mut phase = Lanes::ZERO;
         for l in 0..LANES {
@@ -289,7 +299,10 @@ fn phases(omega: &[f64; LANES], lags: &[f64; 4], speed: f64) -> [Lanes; 4] {
         phase
     };
     let (wheelbase, trucks) = (delayed(lags[1] - lags[0]), delayed(lags[2] - lags[0]));
-    let mut first = Lanes::ZERO;
-    first.re = [1.0; LANES];
-    [first, wheelbase, trucks, trucks.times(wheelbase)]
+    [
+        Lanes::ONE,
+        wheelbase,
+        trucks,
+        trucks.times(simd, &wheelbase),
+    ]
 }

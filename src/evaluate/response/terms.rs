@@ -2,9 +2,14 @@
 
 use std::ops::Range;
 
+use pulp::Simd;
+
 use crate::dynamics::{
     Excitation, ForcedModel, LinearSystem, Output, Row, SystemTangent,
-    elimination::{LANES, Lanes, each},
+    elimination::{
+        LANES, Lanes, Reals,
+        lanes::{mul, neg},
+    },
 };
 
 /// −(K_u + iω C_u) per unit of irregularity at one wheelset, on one coordinate.
@@ -138,28 +143,42 @@ impl OutputTerms {
 
 #[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
 impl OutputTerms {
-    /// p·x + iω v·x − ω² a·x.
+    /// p·x + iω v·x − ω² a·x, of a response x.
     #[inline(always)]
-    pub fn transfer(&self, omega: [f64; LANES], value: impl Fn(Source) -> Lanes) -> Lanes {
-        let sum = |terms: &[(Source, f64)]| {
-            let mut sum = Lanes::ZERO;
-            for &(source, c) in terms {
-                sum = sum.plus_scaled([c; LANES], value(source));
-            }
-            sum
-        };
-        let mut transfer = sum(&self.displacement);
+    pub fn transfer<S: Simd>(&self, simd: S, omega: &Reals, x: Moving<'_>) -> Lanes {
+        let mut transfer = sum(simd, &self.displacement, x);
         if !self.velocity.is_empty() {
             let rate = Lanes {
                 re: [0.0; LANES],
-                im: omega,
+                im: *omega,
             };
-            transfer = transfer.plus_product(rate, sum(&self.velocity));
+            transfer = transfer.plus_product(simd, &rate, &sum(simd, &self.velocity, x));
         }
         if !self.acceleration.is_empty() {
-            let square = each(|l| -omega[l] * omega[l]);
-            transfer = transfer.plus_scaled(square, sum(&self.acceleration));
+            let square = mul(simd, &neg(simd, omega), omega);
+            transfer = transfer.plus_scaled(simd, &square, &sum(simd, &self.acceleration, x));
         }
         transfer
     }
+}
+
+/// Motion of the coordinates, and of the rails under the wheelsets.
+#[derive(Clone, Copy)]
+pub(super) struct Moving<'x> {
+    pub coordinates: &'x [Lanes],
+    pub rails: &'x [Lanes; 4],
+}
+
+#[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
+#[inline(always)]
+fn sum<S: Simd>(simd: S, terms: &[(Source, f64)], x: Moving<'_>) -> Lanes {
+    let mut sum = Lanes::ZERO;
+    for &(source, c) in terms {
+        let value = match source {
+            Source::Coordinate(i) => &x.coordinates[i],
+            Source::Wheelset(i) => &x.rails[i],
+        };
+        sum = sum.plus_scaled(simd, &[c; LANES], value);
+    }
+    sum
 }
