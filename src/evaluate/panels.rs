@@ -9,6 +9,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::Complex;
 
+use super::mode::size;
 use crate::{
     case::Case,
     dynamics::{ForcedModel, Poles},
@@ -49,7 +50,7 @@ pub fn panels(model: &ForcedModel, case: &Case, poles: &Poles) -> Vec<f64> {
             let mut next = (at * RATIO).min(at + PHASE / (PI * lag));
             for z in &poles {
                 let to = z - at;
-                let width = 2.0 * (CLEARANCE * to.norm() - to.re) / (CLEARANCE * CLEARANCE - 1.0);
+                let width = 2.0 * (CLEARANCE * size(to) - to.re) / (CLEARANCE * CLEARANCE - 1.0);
                 next = next.min(at + width);
             }
             // Undamped poles on the axis would stop the walk; the integration then tells.

@@ -15,9 +15,10 @@ pub struct Stiffness {
     entries: Vec<Entry>,
     /// Slots that only elimination fills.
     empty: Vec<usize>,
-    /// Entries with mass, those with damping alone, and those with damping that goes with the speed.
+    /// Entries with mass, those with damping alone row by row, and those with damping that goes with
+    /// the speed.
     massive: Vec<usize>,
-    damped: Vec<usize>,
+    damped: Vec<Vec<usize>>,
     by_speed: Vec<usize>,
 }
 
@@ -36,7 +37,7 @@ struct Entry {
 #[derive(Debug, Clone)]
 pub struct Factors {
     a: Vec<Lanes>,
-    /// C at the speeds, entry by entry.
+    /// C at the speeds set, entry by entry.
     damping: Vec<Reals>,
     diagonal: Vec<Reals>,
     /// Lanes in which no digits were lost.
@@ -70,18 +71,24 @@ impl Stiffness {
                 });
             }
         }
-        let mut empty: Vec<usize> = (0..pattern.count()).collect();
-        empty.retain(|slot| !entries.iter().any(|entry: &Entry| entry.slot == *slot));
+        let mut filled = vec![false; pattern.count()];
+        for entry in &entries {
+            filled[entry.slot] = true;
+        }
         let which = |of: &dyn Fn(&Entry) -> bool| -> Vec<usize> {
             (0..entries.len()).filter(|&k| of(&entries[k])).collect()
         };
+        let damped = which(&|entry| entry.m == 0.0 && entry.c.iter().any(|c| *c != 0.0));
         Self {
             massive: which(&|entry| entry.m != 0.0),
-            damped: which(&|entry| entry.m == 0.0 && entry.c.iter().any(|c| *c != 0.0)),
+            damped: damped
+                .chunk_by(|&k, &l| entries[k].row == entries[l].row)
+                .map(|row| row.to_vec())
+                .collect(),
             by_speed: which(&|entry| entry.c[1..].iter().any(|c| *c != 0.0)),
+            empty: (0..pattern.count()).filter(|&slot| !filled[slot]).collect(),
             pattern,
             entries,
-            empty,
         }
     }
 
@@ -94,9 +101,17 @@ impl Stiffness {
     pub fn factors(&self) -> Factors {
         Factors {
             a: vec![Lanes::ZERO; self.pattern.count()],
-            damping: vec![[0.0; LANES]; self.entries.len()],
+            damping: self.entries.iter().map(|e| [e.c[0]; LANES]).collect(),
             diagonal: vec![[0.0; LANES]; self.order()],
             sound: [false; LANES],
+        }
+    }
+
+    /// Takes C at a speed `v`, m/s, in all lanes.
+    pub fn set_speed(&self, v: f64, factors: &mut Factors) {
+        for &k in &self.by_speed {
+            let [c0, c1, c2] = self.entries[k].c;
+            factors.damping[k] = [c0 + c1 / v + c2 * v; LANES];
         }
     }
 
@@ -104,11 +119,26 @@ impl Stiffness {
     #[inline(always)]
     pub fn set_speeds<S: Simd>(&self, simd: S, v: &Reals, factors: &mut Factors) {
         let slowness = div(simd, &[1.0; LANES], v);
-        for (entry, damping) in self.entries.iter().zip(&mut factors.damping) {
-            let [c0, c1, c2] = entry.c;
+        for &k in &self.by_speed {
+            let [c0, c1, c2] = self.entries[k].c;
             let slow = mul_add(simd, &[c1; LANES], &slowness, &[c0; LANES]);
-            *damping = mul_add(simd, &[c2; LANES], v, &slow);
+            factors.damping[k] = mul_add(simd, &[c2; LANES], v, &slow);
         }
+    }
+
+    /// About the largest |s| of an eigenvalue at the speed set in the first lane, rad/s: of a coordinate
+    /// alone.
+    pub fn fastest(&self, factors: &Factors) -> f64 {
+        let massive = self.massive.iter().map(|&k| {
+            let (
+                Entry {
+                    k: stiffness, m, ..
+                },
+                [c, ..],
+            ) = (self.entries[k], factors.damping[k]);
+            (c / m).max((stiffness / m).max(0.0).sqrt())
+        });
+        massive.fold(0.0, f64::max)
     }
 
     /// Factors D(s) at the speeds set.
@@ -172,10 +202,15 @@ impl Stiffness {
             dx[row] = dx[row].plus_product(simd, &d, &x[row]);
             dy[row] = dy[row].plus_product(simd, &d, &y[row]);
         }
-        for &k in &self.damped {
-            let (Entry { row, column, .. }, c) = (self.entries[k], &factors.damping[k]);
-            dx[row] = dx[row].plus_scaled(simd, c, &x[column]);
-            dy[column] = dy[column].plus_scaled(simd, c, &y[row]);
+        for row in &self.damped {
+            let i = self.entries[row[0]].row;
+            let mut sum = dx[i];
+            for &k in row {
+                let (j, c) = (self.entries[k].column, &factors.damping[k]);
+                sum = sum.plus_scaled(simd, c, &x[j]);
+                dy[j] = dy[j].plus_scaled(simd, c, &y[i]);
+            }
+            dx[i] = sum;
         }
     }
 

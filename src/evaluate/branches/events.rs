@@ -3,13 +3,14 @@
 use nalgebra::Complex;
 
 use super::{
+    cubic::Between,
     pairs::{Known, Pairs, Refiner, SETTLED},
     search::Search,
     state::State,
 };
 use crate::{
     dynamics::elimination::{LANES, Lanes},
-    evaluate::mode::{Mode, damping_ratio, damping_ratio_change},
+    evaluate::mode::{Mode, damping_ratio, damping_ratio_change, size},
 };
 
 /// What to look for on a branch between two speeds.
@@ -35,58 +36,26 @@ pub struct Event {
 /// Evaluations allowed; four are normal.
 const STEPS: usize = 12;
 /// Change of ln V at which a place is found. A minimum is right to the square of it, an onset ends
-/// with a Newton step.
+/// with a Newton step, of this length at most.
 const FOUND: f64 = 1e-6;
-/// Halvings in which the cubic's root is found.
-const HALVINGS: usize = 40;
+const LAST: f64 = 10.0 * FOUND;
+/// How far beyond an end to look first, in ln V, and how much further each time.
+const REACH: f64 = 1e-3;
+const FURTHER: f64 = 4.0;
 /// The cubic and the mode found must agree to this share.
 const AGREE: f64 = 0.2;
 
 /// Events are the same if their speeds are this close, relative, and their vectors alike.
 const SAME: f64 = 1e-6;
 
-/// dζ/d ln V.
-fn damping_slope(known: &Known) -> f64 {
-    damping_ratio_change(known.s, known.slope)
-}
-
 impl Sought {
-    /// What vanishes, negative below and positive above the place sought.
-    fn function(self, known: &Known) -> f64 {
+    /// What vanishes, of s and ds/d ln V: negative below and positive above the place sought.
+    fn function(self, [s, slope]: [Complex<f64>; 2]) -> f64 {
         match self {
-            Self::Onset => known.s.re,
-            Self::Minimum => damping_slope(known),
+            Self::Onset => s.re,
+            Self::Minimum => damping_ratio_change(s, slope),
         }
     }
-}
-
-/// The cubic in ln V with the values and slopes at two speeds.
-fn between(low: &Known, high: &Known, u: f64) -> Known {
-    let (a, b) = (low.speed.ln(), high.speed.ln());
-    let h = b - a;
-    let t = (u - a) / h;
-    let (d0, d1) = (low.slope * h, high.slope * h);
-    let change = high.s - low.s;
-    let (c2, c3) = (3.0 * change - 2.0 * d0 - d1, d0 + d1 - 2.0 * change);
-    Known {
-        speed: u.exp(),
-        s: low.s + t * (d0 + t * (c2 + t * c3)),
-        slope: (d0 + t * (2.0 * c2 + 3.0 * t * c3)) / h,
-    }
-}
-
-/// Root of the sought function on the cubic, ln V.
-fn root(sought: Sought, low: &Known, high: &Known) -> f64 {
-    let (mut a, mut b) = (low.speed.ln(), high.speed.ln());
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(a, b);
-        if sought.function(&between(low, high, middle)) < 0.0 {
-            a = middle;
-        } else {
-            b = middle;
-        }
-    }
-    f64::midpoint(a, b)
 }
 
 struct Bracket {
@@ -96,22 +65,77 @@ struct Bracket {
     high: Known,
     /// The lower end at first.
     low_end: Known,
+    /// Whether the ends have been looked at closely.
+    exact: [bool; 2],
+    /// Where it is expected, and ln V there.
+    guess: Known,
     at: f64,
+    /// How far to go beyond an end, in ln V.
+    reach: f64,
     found: Option<Event>,
 }
 
 impl Bracket {
     fn new(sought: Sought, lane: usize, low: Known, high: Known) -> Self {
+        let (guess, at) = expected(sought, &low, &high);
         Self {
             lane,
             sought,
-            at: root(sought, &low, &high),
             low,
             high,
             low_end: low,
+            exact: [false; 2],
+            guess,
+            at,
+            reach: REACH,
             found: None,
         }
     }
+
+    /// Goes on from what is `known` where it was expected, having the mode's shape from `mode`. `None` if
+    /// what is sought is not where the ends close in on: then they are not of the same mode.
+    fn narrow(&mut self, known: Known, mode: impl FnOnce() -> Option<Mode>) -> Option<()> {
+        let is_below = self.sought.function([known.s, known.slope]) < 0.0;
+        let (end, beyond) = if is_below {
+            self.low = known;
+            (self.high, self.reach)
+        } else {
+            self.high = known;
+            (self.low, -self.reach)
+        };
+        self.exact[usize::from(!is_below)] = true;
+        let (guess, next) = expected(self.sought, &self.low, &self.high);
+        if (next - self.at).abs() >= FOUND {
+            (self.guess, self.at) = (guess, next);
+        } else if !self.exact[usize::from(is_below)]
+            && (end.speed.ln() - self.at).abs() < 2.0 * FOUND
+        {
+            // The end was not quite right: it is beyond.
+            self.at += beyond;
+            self.reach *= FURTHER;
+            self.guess = Known {
+                speed: self.at.exp(),
+                s: known.expected(beyond, None),
+                slope: known.slope,
+            };
+        } else {
+            self.found = Some(Event {
+                sought: self.sought,
+                at: finished(self.sought, &known)?,
+                mode: mode(),
+            });
+        }
+        Some(())
+    }
+}
+
+/// What is sought between two speeds, and ln V there, on the cubic.
+fn expected(sought: Sought, low: &Known, high: &Known) -> (Known, f64) {
+    let between = Between::new(low, high);
+    let t = between.root(|known| sought.function(known));
+    let ([s, slope], at) = (between.at(t), between.place(t));
+    let speed = at.exp();
+    (Known { speed, s, slope }, at)
 }
 
 /// Adds to a search what it seeks between two neighbouring speeds. Onsets are those at which a mode
@@ -173,10 +197,7 @@ fn close(refiner: &mut Refiner, start: &State, brackets: &mut [Bracket]) -> Opti
         pairs.take(l, &start.pairs, brackets[lane(l, brackets)].lane);
     }
     for _ in 0..STEPS {
-        let guesses: [Known; LANES] = std::array::from_fn(|l| {
-            let bracket = &brackets[lane(l, brackets)];
-            between(&bracket.low, &bracket.high, bracket.at)
-        });
+        let guesses: [Known; LANES] = std::array::from_fn(|l| brackets[lane(l, brackets)].guess);
         pairs.s = Lanes::from_fn(|l| guesses[l].s);
         pairs.speed = guesses.map(|guess| guess.speed);
         if !refiner.settle(&mut pairs, brackets.len(), SETTLED) {
@@ -184,28 +205,14 @@ fn close(refiner: &mut Refiner, start: &State, brackets: &mut [Bracket]) -> Opti
         }
         for (l, bracket) in brackets.iter_mut().enumerate() {
             let known = pairs.known(l);
-            let apart = (known.s - guesses[l].s).norm();
-            if apart.is_nan() || apart > AGREE * known.s.norm() {
+            let apart = size(known.s - guesses[l].s);
+            if apart.is_nan() || apart > AGREE * size(known.s) {
                 return None;
             }
             if bracket.found.is_some() {
                 continue;
             }
-            if bracket.sought.function(&known) < 0.0 {
-                bracket.low = known;
-            } else {
-                bracket.high = known;
-            }
-            let next = root(bracket.sought, &bracket.low, &bracket.high);
-            if (next - bracket.at).abs() < FOUND {
-                bracket.found = Some(Event {
-                    sought: bracket.sought,
-                    at: finished(bracket.sought, &known),
-                    mode: pairs.mode(l),
-                });
-            } else {
-                bracket.at = next;
-            }
+            bracket.narrow(known, || pairs.mode(l))?;
         }
         if brackets.iter().all(|bracket| bracket.found.is_some()) {
             return apart(&pairs, brackets).then_some(());
@@ -226,25 +233,26 @@ fn apart(pairs: &Pairs, brackets: &[Bracket]) -> bool {
     })
 }
 
-/// An onset is brought to Re s = 0 by a last Newton step.
-fn finished(sought: Sought, known: &Known) -> Known {
-    let step = -known.s.re / known.slope.re;
-    if sought == Sought::Minimum || step.abs() > 10.0 * FOUND {
-        return *known;
+/// An onset is brought to Re s = 0 by a last Newton step, which must be short.
+fn finished(sought: Sought, known: &Known) -> Option<Known> {
+    if sought == Sought::Minimum {
+        return Some(*known);
     }
-    Known {
+    let step = -known.s.re / known.slope.re;
+    (step.abs() < LAST).then(|| Known {
         speed: known.speed * step.exp(),
         s: Complex::new(0.0, known.s.im + known.slope.im * step),
         slope: known.slope,
-    }
+    })
 }
 
 /// Whether a branch has a minimum of damping between two speeds that may fall below a value.
 fn minimum(low: &Known, high: &Known, below: f64) -> bool {
-    if !(damping_slope(low) < 0.0 && damping_slope(high) >= 0.0) {
+    let [falls, rises] = [low, high].map(|known| damping_ratio_change(known.s, known.slope));
+    if !(falls < 0.0 && rises >= 0.0) {
         return false;
     }
-    let known = between(low, high, root(Sought::Minimum, low, high));
+    let (known, _) = expected(Sought::Minimum, low, high);
     // The cubic may be off by as much as it is below its ends.
     let ends = damping_ratio(low.s).min(damping_ratio(high.s));
     let least = damping_ratio(known.s);

@@ -6,6 +6,7 @@
 use nalgebra::Complex;
 
 use super::{
+    cubic::Cubic,
     events::{Sought, find},
     pairs::Known,
     search::Search,
@@ -14,7 +15,7 @@ use super::{
 };
 use crate::{
     dynamics::{LinearSystem, Poles, elimination::LANES},
-    evaluate::mode::damping_ratio,
+    evaluate::mode::{damping_ratio, size},
 };
 
 /// Widths of a jump that are tried, in ln V.
@@ -66,8 +67,8 @@ impl Branches<'_> {
 /// Two modes that meet between two speeds, as mean and square of half their difference.
 struct Twins {
     speeds: [f64; 2],
-    mean: [Complex<f64>; 4],
-    square: [Complex<f64>; 4],
+    mean: Cubic,
+    square: Cubic,
 }
 
 /// Damping ratio within which the interpolation must agree with the spectrum in the middle, and by
@@ -104,16 +105,15 @@ impl Twins {
         };
         let twins = Self {
             speeds: [a[0].speed, b[0].speed],
-            mean: cubic(mean(a), mean(b)),
-            square: cubic(square(a), square(b)),
+            mean: Cubic::new(mean(a), mean(b)),
+            square: Cubic::new(square(a), square(b)),
         };
         Some((other, twins))
     }
 
     /// Both at a share t of the way.
     fn at(&self, t: f64) -> [Complex<f64>; 2] {
-        let value = |c: &[Complex<f64>; 4]| c[0] + t * (c[1] + t * (c[2] + t * c[3]));
-        let (mean, half) = (value(&self.mean), value(&self.square).sqrt());
+        let (mean, half) = (self.mean.value(t), self.square.value(t).sqrt());
         [mean + half, mean - half]
     }
 
@@ -148,15 +148,9 @@ impl Twins {
         let mut values: Vec<Complex<f64>> = poles.oscillatory().collect();
         let expected = self.at(0.5).into_iter();
         expected
-            .map(|s| take_nearest(&mut values, s, ERROR * s.norm()))
+            .map(|s| take_nearest(&mut values, s, ERROR * size(s)))
             .all(|found| found.is_some())
     }
-}
-
-/// Coefficients of the cubic over 0…1 with values and slopes at both ends.
-fn cubic([a, da]: [Complex<f64>; 2], [b, db]: [Complex<f64>; 2]) -> [Complex<f64>; 4] {
-    let change = b - a;
-    [a, da, 3.0 * change - 2.0 * da - db, da + db - 2.0 * change]
 }
 
 /// Eigenvalues in the lanes of the modes that they continue, those that continue none in the lanes
@@ -172,10 +166,10 @@ fn matched(
         let known = now.known(l);
         let expected = known.expected((speed / known.speed).ln(), None);
         // A strongly damped one may have left the sector that is followed.
-        let Some(s) = take_nearest(&mut values, expected, STRONG * expected.norm()) else {
+        let Some(s) = take_nearest(&mut values, expected, STRONG * size(expected)) else {
             continue;
         };
-        let apart = |s: &Complex<f64>| (s - expected).norm();
+        let apart = |s: &Complex<f64>| size(*s - expected);
         let others = all.iter().filter(|other| **other != s);
         let next = others.map(apart).fold(f64::INFINITY, f64::min);
         clear[l] = apart(&s) < CLEAR * next;

@@ -8,6 +8,7 @@
 //! Where modes come too close to be told apart, or one that was not followed turns up, the answer
 //! is `None`: full spectra answer then.
 
+mod cubic;
 mod events;
 mod jump;
 mod pairs;

@@ -117,20 +117,20 @@ impl Pairs {
 
     /// Whether the right vectors of two pairs are nearly the same.
     pub fn alike(a: (&Self, usize), b: (&Self, usize)) -> bool {
-        Self::overlap(a, b) > ALIKE
+        Self::overlap(a, b) > ALIKE * ALIKE
     }
 
     /// Whether the right vector of one pair can have become that of another on the way from a speed
     /// to the next.
     pub fn related(a: (&Self, usize), b: (&Self, usize)) -> bool {
-        Self::overlap(a, b) > RELATED
+        Self::overlap(a, b) > RELATED * RELATED
     }
 
-    /// |x̄ᵀ x′| of right vectors, which are of length one.
+    /// |x̄ᵀ x′|² of right vectors, which are of length one.
     fn overlap((a, i): (&Self, usize), (b, j): (&Self, usize)) -> f64 {
         let products = a.x.iter().zip(&b.x);
         let product: Complex<f64> = products.map(|(a, b)| a.lane(i).conj() * b.lane(j)).sum();
-        product.norm()
+        product.norm_sqr()
     }
 
     /// The eigenvalue in lane `l`.

@@ -3,22 +3,31 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::Complex;
-use pulp::{Scalar, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use super::pairs::Refiner;
-use crate::dynamics::elimination::{Factors, LANES, Lanes, Stiffness};
+use crate::{
+    dynamics::elimination::{
+        Factors, LANES, Lanes, Reals, Stiffness,
+        lanes::{abs, add, div, mul, neg},
+    },
+    evaluate::mode::{damping_ratio, size},
+};
 
-/// Step of ln |s| as a share of the distance to the nearest mode known, and at most, among these
-/// and away from them.
-const SHARE: f64 = 0.5;
+/// Steps of ln |s|: among the modes known, above them where the creep forces' fast decay is, and
+/// where nothing is expected.
 const FINE: f64 = 0.15;
+const MIDDLE: f64 = 0.2;
 const COARSE: f64 = 0.4;
-/// Least step: a mode known may lie on the ray itself.
-const SMALLEST: f64 = 1e-5;
+/// Shares of these steps that are tried. The second time steps are at most a share of the distance to
+/// the nearest mode known, but for the least: there may be another like it.
+const CARE: [(f64, f64); 2] = [(1.0, f64::INFINITY), (0.3, 0.15)];
+const SMALLEST: f64 = 3e-6;
 /// Range of |s| that counts as among the modes, as a factor beyond theirs.
 const MARGIN: f64 = 2.0;
-/// |s| at which the walk ends: far above any mode's, rad/s.
-const FAR: f64 = 1e6;
+/// Where the walk ends, as a multiple of the fastest decay: what directions there are lies within a
+/// few hundredths of a turn of that at infinity.
+const FAR: f64 = 100.0;
 /// Start as a share of the lowest |s| of the modes.
 const START: f64 = 1e-3;
 /// Change of direction from one step to the next above which the walk may have missed a turn, rad.
@@ -27,53 +36,69 @@ const SHARP: f64 = 2.4;
 const UNSURE: f64 = 0.15;
 
 /// Number of eigenvalues in the upper half plane with damping ratios below `zeta` at `speed`, m/s,
-/// those on the positive real axis counted half. Where the modes `known` are, the walk goes in small
-/// steps, and if it is inconclusive in smaller ones. `None` if it still is.
+/// those on the positive real axis counted half. `None` if the count is inconclusive.
 ///
 /// ```math
 /// Along s = r e^{iθ}, θ = π/2 + asin ζ:   Δarg det D(s) = 2 n θ − 2π N
 /// ```
+///
+/// det D is divided by the factors of the modes `known`, which are counted by themselves: what is
+/// left turns slowly. If they are not quite right, or some are missing, that only takes more steps.
 pub fn modes_below(
     refiner: &mut Refiner,
     speed: f64,
     zeta: f64,
     known: &[Complex<f64>],
 ) -> Option<f64> {
-    let carefully = |steps: f64| walk(refiner, speed, zeta, known, steps);
-    [1.0, 0.3].into_iter().find_map(carefully)
+    let below = known.iter().filter(|s| damping_ratio(**s) < zeta).count();
+    let carefully = |care| walk(refiner, speed, zeta, known, care);
+    let others = CARE.into_iter().find_map(carefully)?;
+    Some(others + below as f64)
 }
 
+/// Number of those that are not known.
 fn walk(
     refiner: &mut Refiner,
     speed: f64,
     zeta: f64,
     known: &[Complex<f64>],
-    share: f64,
+    (share, of_distance): (f64, f64),
 ) -> Option<f64> {
     let angle = FRAC_PI_2 + zeta.asin();
     let order = refiner.order();
     let (stiffness, factors, arch) = refiner.parts();
-    let modes: Vec<(f64, f64)> = known.iter().map(|s| (s.norm().ln(), s.arg())).collect();
+    let modes: Vec<(f64, f64)> = known.iter().map(|s| (size(*s).ln(), s.arg())).collect();
     let sizes = modes.iter().map(|(size, _)| *size);
-    let low = sizes.clone().fold(f64::INFINITY, f64::min);
-    let among = low - MARGIN.ln()..sizes.fold(f64::NEG_INFINITY, f64::max) + MARGIN.ln();
+    stiffness.set_speed(speed, factors);
+    let fastest = stiffness.fastest(factors).ln();
+    let low = sizes.clone().fold(fastest, f64::min);
+    let high = sizes.fold(low, f64::max);
     let step = |at: f64| {
-        let near = modes
+        let widest = share
+            * if at < low - MARGIN.ln() || at > fastest.max(high) + MARGIN.ln() {
+                COARSE
+            } else if at > high + MARGIN.ln() {
+                MIDDLE
+            } else {
+                FINE
+            };
+        if of_distance.is_infinite() {
+            return widest;
+        }
+        let apart = modes
             .iter()
-            .map(|(size, direction)| (size - at).powi(2) + (direction - angle).powi(2))
-            .fold(f64::INFINITY, f64::min);
-        let widest = if among.contains(&at) { FINE } else { COARSE };
-        share * (SHARE * near.sqrt()).clamp(SMALLEST, widest)
+            .map(|(size, direction)| (size - at).hypot(direction - angle));
+        let near = apart.fold(f64::INFINITY, f64::min);
+        (of_distance * near).clamp(SMALLEST, widest)
     };
     // ln |s|
     let mut at = low + START.ln();
-    stiffness.set_speeds(Scalar::new(), &[speed; LANES], factors);
     let mut walk = Walk {
         turned: 0.0,
         last: None,
         sure: true,
     };
-    while at < FAR.ln() && walk.sure {
+    while at < fastest.max(high) + FAR.ln() && walk.sure {
         let mut radii = [0.0; LANES];
         for radius in &mut radii {
             *radius = at.exp();
@@ -84,16 +109,18 @@ fn walk(
             factors,
             radii,
             direction: (angle.cos(), angle.sin()),
+            known,
             walk: &mut walk,
         });
     }
-    let count = (2.0 * order as f64 * angle - walk.turned) / TAU;
+    let degree = 2 * (order - known.len());
+    let count = (degree as f64 * angle - walk.turned) / TAU;
     // A positive real eigenvalue counts half.
     let whole = (2.0 * count).round() / 2.0;
     (walk.sure && (count - whole).abs() < UNSURE).then_some(whole)
 }
 
-/// A walk along the ray: how far det D has turned.
+/// A walk along the ray: how far what is left of det D has turned.
 struct Walk {
     turned: f64,
     last: Option<(f64, f64)>,
@@ -103,8 +130,9 @@ struct Walk {
 struct Steps<'r> {
     stiffness: &'r Stiffness,
     factors: &'r mut Factors,
-    radii: [f64; LANES],
+    radii: Reals,
     direction: (f64, f64),
+    known: &'r [Complex<f64>],
     walk: &'r mut Walk,
 }
 
@@ -114,18 +142,34 @@ impl WithSimd for Steps<'_> {
     #[allow(clippy::inline_always)] // Where the vector unit is known.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let mut s = Lanes::ZERO;
-        for l in 0..LANES {
-            s.re[l] = self.radii[l] * self.direction.0;
-            s.im[l] = self.radii[l] * self.direction.1;
-        }
+        let s = Lanes {
+            re: mul(simd, &self.radii, &[self.direction.0; LANES]),
+            im: mul(simd, &self.radii, &[self.direction.1; LANES]),
+        };
         self.stiffness.factor(simd, &s, self.factors);
-        let determinant = self.stiffness.determinant(simd, self.factors);
+        let mut left = self.stiffness.determinant(simd, self.factors);
+        for (k, known) in self.known.iter().enumerate() {
+            for im in [-known.im, known.im] {
+                let mode = Lanes {
+                    re: [-known.re; LANES],
+                    im: [im; LANES],
+                };
+                // Divided by s − λ, but for its size.
+                let mut factor = s.plus_scaled(simd, &[1.0; LANES], &mode);
+                factor.im = neg(simd, &factor.im);
+                left = left.times(simd, &factor);
+            }
+            // Four take it to 1e48 at most.
+            if k % 4 == 3 {
+                let size = add(simd, &abs(simd, &left.re), &abs(simd, &left.im));
+                left = left.scaled(simd, &div(simd, &[1.0; LANES], &size));
+            }
+        }
         for l in 0..LANES {
-            let (re, im) = (determinant.re[l], determinant.im[l]);
+            let (re, im) = (left.re[l], left.im[l]);
             let turn = match self.walk.last {
                 Some((a, b)) => (im * a - re * b).atan2(re * a + im * b),
-                // det D(0) = det K is real.
+                // At s = 0 it is real.
                 None => nearest_real(im.atan2(re)),
             };
             self.walk.sure &= turn.abs() < SHARP && self.factors.sound[l];

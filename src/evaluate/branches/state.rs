@@ -5,7 +5,7 @@ use nalgebra::Complex;
 use super::pairs::{Known, Pairs, Refiner};
 use crate::{
     dynamics::elimination::{LANES, Lanes},
-    evaluate::mode::damping_ratio,
+    evaluate::mode::{damping_ratio, size},
 };
 
 /// Damping ratio above which a mode is let go where it cannot be told apart from another: it
@@ -59,8 +59,8 @@ impl State {
         refiner.step(&mut state.pairs);
         refiner.step(&mut state.pairs);
         let lost = |state: &Self, l: usize| {
-            let apart = (state.known(l).s - values[l]).norm();
-            apart.is_nan() || apart > EXPECTED * values[l].norm() || state.repeats(l)
+            let apart = size(state.known(l).s - values[l]);
+            apart.is_nan() || apart > EXPECTED * size(values[l]) || state.repeats(l)
         };
         state.bury(|state, l| damping_ratio(values[l]) > STRONG && lost(state, l));
         let fine = state.living().all(|l| !lost(&state, l));
@@ -75,6 +75,11 @@ impl State {
 
     pub fn known(&self, l: usize) -> Known {
         self.pairs.known(l)
+    }
+
+    /// All modes in their lanes.
+    pub fn all(&self) -> [Option<Known>; LANES] {
+        std::array::from_fn(|l| self.alive[l].then(|| self.known(l)))
     }
 
     pub fn speed(&self) -> f64 {
@@ -115,7 +120,7 @@ impl State {
     /// Whether two modes at one speed are the same.
     pub fn same((a, i): (&Self, usize), (b, j): (&Self, usize)) -> bool {
         let (s, other) = (a.known(i).s, b.known(j).s);
-        (other - s).norm_sqr() < (CLOSE * s.norm()).powi(2)
+        (other - s).norm_sqr() < CLOSE * CLOSE * s.norm_sqr()
             && Pairs::alike((&a.pairs, i), (&b.pairs, j))
     }
 }

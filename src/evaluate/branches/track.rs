@@ -3,6 +3,7 @@
 use nalgebra::Complex;
 
 use super::{
+    cubic::Between,
     events::{Event, find},
     pairs::{Known, Pairs, Refiner, SETTLED},
     search::Search,
@@ -23,7 +24,7 @@ const SHORTEST: f64 = 5e-3;
 /// Share of a step at which it is tried again.
 const SHORTENED: f64 = 0.3;
 /// Relative change of s that ends the iteration on the way: the step itself leaves its cube.
-const LOOSE: f64 = 3e-3;
+const LOOSE: f64 = 2e-2;
 /// Damping ratio below which all modes at the end of a walk are known for sure.
 pub const COMPLETE: f64 = 0.05;
 /// Damping ratios between which the modes are counted.
@@ -38,6 +39,8 @@ pub struct Branches<'m> {
     start: State,
     /// Room for the next state.
     spare: Option<State>,
+    /// The modes before and after each step of all walks, in ascending speed.
+    steps: Vec<[[Option<Known>; LANES]; 2]>,
     /// Real eigenvalues that grow, none or one: then at every speed, as det K is negative.
     growing: usize,
 }
@@ -55,6 +58,7 @@ impl<'m> Branches<'m> {
             growing: growing.count(),
             start: State::new(&mut refiner, poles.speed, worth_following(poles))?,
             spare: None,
+            steps: Vec::new(),
             model,
             refiner,
         };
@@ -129,7 +133,7 @@ impl<'m> Branches<'m> {
         let poles = Poles::at(&self.model.forced.system, speed).ok()?;
         let mut values = worth_following(&poles);
         for known in known {
-            let taken = take_nearest(&mut values, known.s, SAME * known.s.norm());
+            let taken = take_nearest(&mut values, known.s, SAME * size(known.s));
             if taken.is_none() && damping_ratio(known.s) < COUNTED[1] {
                 return None;
             }
@@ -160,31 +164,35 @@ impl<'m> Branches<'m> {
             } else {
                 target
             };
-            let advanced = self.advance(last.as_ref(), &now, to, search.surprise);
+            let room = self.spare.take().unwrap_or_else(|| now.clone());
+            let (next, surprise) = self.advance(last.as_ref(), &now, room, to, search.surprise);
             // The error of the expectation goes with the third power of the step.
-            let surprise = advanced.as_ref().map_or(f64::INFINITY, |(_, s)| *s);
             length = step * (0.9 / surprise.cbrt()).clamp(SHORTENED, 2.0);
             length = length.min(LONGEST);
-            match advanced {
-                Some((state, surprise)) if surprise <= 1.0 => {
-                    let events = search.events.len();
-                    if find(&mut self.refiner, &now, &state, search).is_none() {
-                        // Closer by, two that are near each other can be told apart.
-                        search.events.truncate(events);
-                        length = SHORTENED * step;
-                        if length < SHORTEST {
-                            return None;
-                        }
-                        continue;
+            if surprise <= 1.0 {
+                let events = search.events.len();
+                if find(&mut self.refiner, &now, &next, search).is_none() {
+                    // Closer by, two that are near each other can be told apart.
+                    search.events.truncate(events);
+                    self.spare = Some(next);
+                    length = SHORTENED * step;
+                    if length < SHORTEST {
+                        return None;
                     }
-                    self.spare = last.replace(std::mem::replace(&mut now, state));
+                    continue;
                 }
-                _ if length < SHORTEST => {
-                    now = self.jump(&now, target, search)?;
-                    last = None;
-                    length = FIRST;
+                let step = [now.all(), next.all()];
+                let up = next.speed() > now.speed();
+                self.steps.push(if up { step } else { [step[1], step[0]] });
+                self.spare = last.replace(std::mem::replace(&mut now, next));
+            } else {
+                self.spare = Some(next);
+                if length >= SHORTEST {
+                    continue;
                 }
-                _ => continue,
+                now = self.jump(&now, target, search)?;
+                last = None;
+                length = FIRST;
             }
             if enough(&search.events, now.speed()) {
                 break;
@@ -193,22 +201,17 @@ impl<'m> Branches<'m> {
         Some(now)
     }
 
-    /// The modes at another speed, and how far they were from where they were expected, relative
-    /// to what is allowed; `None` if they are lost.
+    /// The modes at another speed, in the room of some state, and how far they were from where they
+    /// were expected, relative to what is allowed: infinitely if they are lost.
     fn advance(
         &mut self,
         last: Option<&State>,
         now: &State,
+        mut next: State,
         speed: f64,
         [share, least]: [f64; 2],
-    ) -> Option<(State, f64)> {
-        let mut next = match self.spare.take() {
-            Some(mut spare) => {
-                spare.copy_from(now);
-                spare
-            }
-            None => now.clone(),
-        };
+    ) -> (State, f64) {
+        next.copy_from(now);
         let h = (speed / now.speed()).ln();
         for l in now.living() {
             let known = now.known(l);
@@ -224,7 +227,7 @@ impl<'m> Branches<'m> {
             living.any(|l| gone(state.known(l).s) && !was_strong(l))
         };
         if leaves(&next) {
-            return None;
+            return (next, f64::INFINITY);
         }
         next.bury(|state, l| gone(state.known(l).s));
         let expected = next.pairs.s;
@@ -235,7 +238,7 @@ impl<'m> Branches<'m> {
             settled && Pairs::related((&now.pairs, l), (&state.pairs, l))
         };
         if leaves(&next) {
-            return None;
+            return (next, f64::INFINITY);
         }
         next.bury(|state, l| {
             let lost = || !kept(state, l) || state.repeats(l);
@@ -248,18 +251,49 @@ impl<'m> Branches<'m> {
             size(s - expected.lane(l)) / (allowed * size(s))
         });
         let surprise = surprise.fold(0.0, f64::max);
-        fine.then_some((next, surprise))
+        (next, if fine { surprise } else { f64::INFINITY })
     }
 
     /// Whether nothing grows at a speed, m/s, just below the onset of a mode, s = `known`: counted
-    /// anew, with the modes at the start as nothing but a hint where to take small steps. `None` if the
-    /// count is inconclusive.
+    /// anew. `None` if the count is inconclusive.
     pub fn stable_at(&mut self, speed: f64, known: Complex<f64>) -> Option<bool> {
-        let mut hints: Vec<Complex<f64>> =
-            self.start.living().map(|l| self.start.known(l).s).collect();
-        hints.push(known);
-        let counted = modes_below(&mut self.refiner, speed, 0.0, &hints);
+        let modes = self.passed(speed, known);
+        let counted = modes_below(&mut self.refiner, speed, 0.0, &modes);
         counted.map(|counted| self.agrees(counted, 0))
+    }
+
+    /// One mode and the others at a speed that was passed on a walk.
+    fn passed(&mut self, speed: f64, one: Complex<f64>) -> Vec<Complex<f64>> {
+        let within = |[low, high]: [Known; 2]| low.speed <= speed && speed <= high.speed;
+        let both = |[low, high]: &[[Option<Known>; LANES]; 2], l: usize| {
+            low[l].zip(high[l]).map(<[Known; 2]>::from)
+        };
+        let step = |step: &&[[Option<Known>; LANES]; 2]| {
+            (0..LANES).any(|l| both(step, l).is_some_and(within))
+        };
+        let Some(step) = self.steps.iter().find(step) else {
+            return vec![one];
+        };
+        let lanes: Vec<usize> = (0..LANES).filter(|&l| both(step, l).is_some()).collect();
+        let mut pairs = self.start.pairs.clone();
+        for l in 0..LANES {
+            let lane = if lanes.contains(&l) { l } else { lanes[0] };
+            pairs.take(l, &self.start.pairs, lane);
+            if let Some([low, high]) = both(step, lane) {
+                let [s, _] = Between::new(&low, &high).at_speed(speed);
+                (pairs.s.re[l], pairs.s.im[l]) = (s.re, s.im);
+            }
+        }
+        pairs.speed = [speed; LANES];
+        self.refiner.settle(&mut pairs, LANES, SETTLED);
+        let mut modes = vec![one];
+        for s in lanes.into_iter().map(|l| pairs.s.lane(l)) {
+            let is_new = |known: &Complex<f64>| size(*known - s) > SAME * size(s);
+            if s.is_finite() && s.im > 0.0 && modes.iter().all(is_new) {
+                modes.push(s);
+            }
+        }
+        modes
     }
 
     /// Whether some modes are all that are little damped at a speed.

@@ -11,7 +11,7 @@ mod terms;
 
 use std::{f64::consts::TAU, ops::Range};
 
-use pulp::{Arch, Scalar, Simd, WithSimd};
+use pulp::{Arch, Simd, WithSimd};
 
 use crate::{
     dynamics::{
@@ -75,7 +75,7 @@ impl<'a> Response<'a> {
         let system = &model.system;
         let stiffness = Stiffness::new(system);
         let mut factors = stiffness.factors();
-        stiffness.set_speeds(Scalar::new(), &[speed; LANES], &mut factors);
+        stiffness.set_speed(speed, &mut factors);
         let excitations = model.excitations.iter().map(|excitation| Excited {
             forces: terms::forces(system, excitation, speed),
             outputs: terms::outputs(model, excitation, outputs.clone()),
