@@ -4,12 +4,13 @@ mod support;
 
 use bogie::{
     case::Case,
-    dynamics::{LateralModel, Poles, VerticalModel, elimination::LANES},
+    dynamics::{LateralModel, Poles, VerticalModel, eigenvalues, elimination::LANES},
     evaluate::{
         critical_speed::Stability,
         damping_range::DampingRange,
         response::{Response, plain},
     },
+    vehicle::AirSpring,
 };
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -136,6 +137,35 @@ fn least_damping_is_that_of_full_spectra_or_lower() {
     }
     assert!(compared > 60, "{compared} compared");
     assert!(lower < compared / 20, "{lower} of {compared} lower");
+}
+
+/// The symmetric vertical model's eigenvalues, found in parts, are those of the whole: also with air
+/// springs, whose inner points have no mass. 1e-7: two that are nearly equal, as those of the
+/// trucks, are good to the square root of rounding.
+#[test]
+fn eigenvalues_of_parts_are_those_of_the_whole() {
+    for (i, (name, mut case)) in vehicles(8, 80).into_iter().enumerate() {
+        let secondary = &mut case.vehicle.suspension.secondary;
+        if i.is_multiple_of(2) {
+            secondary.air_spring = Some(AirSpring {
+                direct_stiffness: 0.1 * secondary.vertical_stiffness,
+                series_stiffness: 2.0 * secondary.vertical_stiffness,
+                reservoir_stiffness: secondary.vertical_stiffness,
+                orifice_damping: secondary.vertical_damping,
+            });
+        }
+        let system = VerticalModel::new(&case).forced.system;
+        let mut whole = eigenvalues(system.state_matrix(case.service.speed)).unwrap();
+        let parts = Poles::at(&system, case.service.speed).unwrap().values;
+        assert_eq!(parts.len(), whole.len(), "{name}");
+        let largest = whole.iter().map(|s| s.norm()).fold(0.0, f64::max);
+        for s in parts {
+            let apart = |i: &usize| (whole[*i] - s).norm();
+            let nearest = (0..whole.len()).min_by(|i, j| apart(i).total_cmp(&apart(j)));
+            let other = whole.swap_remove(nearest.unwrap());
+            assert!((other - s).norm() < 1e-7 * largest, "{name}: {s}, {other}");
+        }
+    }
 }
 
 /// Transfer functions by elimination in the order of the structure, without pivoting, against a

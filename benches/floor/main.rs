@@ -12,11 +12,10 @@ use std::{hint::black_box, time::Instant};
 use bogie::{
     case::Case,
     dynamics::{
-        ForcedModel, LateralModel, Poles, VerticalModel,
+        ForcedModel, LateralModel, Pairs, Poles, Refiner, VerticalModel,
         elimination::{LANES, Lanes},
     },
     evaluate::{
-        branches::{Pairs, Refiner},
         critical_speed::Stability,
         curving::CurvingLimits,
         integration::integrate,
@@ -109,6 +108,7 @@ fn main() {
         Lanes::from_fn(|_| s),
         [case.service.speed; LANES],
         system.order(),
+        |i, _| Pairs::anything(i),
     );
     let step = lanes * elimination.rayleigh_step();
     let step_time = microseconds(|| refiner.step(&mut pairs));

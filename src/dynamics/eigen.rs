@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, SMatrix, linalg::Schur};
 
-use super::{LinearSystem, balance::balance};
+use super::{LinearSystem, balance::balance, parts};
 
 /// Why no eigenvalues came out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -31,7 +31,10 @@ impl Poles {
     ///
     /// As [`eigenvalues`].
     pub fn at(system: &LinearSystem, speed: f64) -> Result<Self, EigenError> {
-        let values = eigenvalues(system.state_matrix(speed))?;
+        let mut values = Vec::with_capacity(2 * system.order());
+        for matrix in parts::state_matrices(system, speed) {
+            values.extend(eigenvalues(matrix)?);
+        }
         Ok(Self { speed, values })
     }
 
@@ -81,7 +84,8 @@ pub fn eigenvalues(mut a: DMatrix<f64>) -> Result<Vec<Complex<f64>>, EigenError>
     balance(&mut a);
     // The models' own sizes are known when compiling, which makes them faster.
     let values = match a.nrows() {
-        24 => schur_values!(SMatrix::<f64, 24, 24>::from_column_slice(a.as_slice())),
+        4 => schur_values!(SMatrix::<f64, 4, 4>::from_column_slice(a.as_slice())),
+        6 => schur_values!(SMatrix::<f64, 6, 6>::from_column_slice(a.as_slice())),
         30 => schur_values!(SMatrix::<f64, 30, 30>::from_column_slice(a.as_slice())),
         34 => schur_values!(SMatrix::<f64, 34, 34>::from_column_slice(a.as_slice())),
         _ => schur_values!(a.clone()),

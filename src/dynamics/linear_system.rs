@@ -19,6 +19,8 @@ pub struct LinearSystem {
     pub stiffness: DMatrix<f64>,
     /// C0, C1, C2 over [q, u]: independent of the speed, over it, and proportional to it.
     pub damping: [DMatrix<f64>; 3],
+    /// Coordinates that are each other's mirror images, of one plane of symmetry after another.
+    pub mirrored: Vec<[usize; 2]>,
 }
 
 /// How a damping constant depends on the speed V.
@@ -41,6 +43,7 @@ impl LinearSystem {
             inputs,
             stiffness: zero.clone(),
             damping: [zero.clone(), zero.clone(), zero],
+            mirrored: Vec::new(),
         }
     }
 

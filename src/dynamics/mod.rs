@@ -3,15 +3,18 @@
 mod balance;
 pub mod curving;
 mod eigen;
+mod eigenpairs;
 pub mod elimination;
 mod forced;
 pub mod lateral;
 mod linear_system;
+mod parts;
 mod row;
 mod tangent;
 pub mod vertical;
 
 pub use eigen::{EigenError, Poles, eigenvalues};
+pub use eigenpairs::{Known, Pairs, Refiner, SETTLED};
 pub use forced::{Excitation, ForcedModel, Output};
 pub use lateral::LateralModel;
 pub use linear_system::{LinearSystem, Speed};

@@ -9,10 +9,10 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 
 use super::{
-    branches::{Branches, COMPLETE, Care, Known, Search},
+    branches::{Branches, COMPLETE, Care, Search},
     mode::{damping_ratio, frequency},
 };
-use crate::dynamics::{EigenError, LateralModel, Poles};
+use crate::dynamics::{EigenError, Known, LateralModel, Poles};
 
 /// Where in the range a minimum lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

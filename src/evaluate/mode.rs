@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use crate::dynamics::LinearSystem;
+use crate::dynamics::{LinearSystem, Pairs};
 
 /// A solution v of D(s) v = 0 with the left vector w of wᴴ D(s) = 0.
 #[derive(Debug, Clone)]
@@ -64,16 +64,13 @@ impl Mode {
         })
     }
 
-    /// From vectors of any length. `None` if they are not finite.
-    pub fn normalised(
-        eigenvalue: Complex<f64>,
-        shape: &DVector<Complex<f64>>,
-        left: &DVector<Complex<f64>>,
-    ) -> Option<Self> {
+    /// The eigenpair in a lane. `None` if its vectors are not finite.
+    pub fn of_pair(pairs: &Pairs, l: usize) -> Option<Self> {
+        let [shape, left] = pairs.vectors(l);
         Some(Self {
-            eigenvalue,
-            shape: normalised(shape)?,
-            left: normalised(left)?,
+            eigenvalue: pairs.s.lane(l),
+            shape: normalised(&shape)?,
+            left: normalised(&left.conjugate())?,
         })
     }
 

@@ -126,6 +126,7 @@ pub(super) fn search(
         known,
         arrived: None,
         infeasible: false,
+        step: None,
         certificate: None,
     };
     let outcome = region.search();
@@ -186,6 +187,8 @@ struct Region<'a> {
     arrived: Option<&'a Found>,
     /// The violation cannot be reduced around the centre.
     infeasible: bool,
+    /// The last step, whose multipliers are nearly those of the next.
+    step: Option<Step>,
     certificate: Option<Certificate>,
 }
 
@@ -306,9 +309,10 @@ impl Region<'_> {
         let x = &self.centre.x;
         let lower = DVector::from_fn(x.len(), |i, _| (-self.radius).max(-x[i]));
         let upper = DVector::from_fn(x.len(), |i, _| self.radius.min(1.0 - x[i]));
-        let minimise =
-            |weights| subproblem::minimise(surrogate, &lower, &upper, self.radius, weights);
-        let mut step = minimise(self.weights())?;
+        let minimise = |weights, before: Option<&Step>| {
+            subproblem::minimise(surrogate, &lower, &upper, self.radius, weights, before)
+        };
+        let mut step = minimise(self.weights(), self.step.as_ref())?;
         self.infeasible = false;
         // The program's own accuracy is no reason to raise the penalty.
         let negligible = FEASIBLE.max(NEGLIGIBLE * self.radius);
@@ -318,22 +322,24 @@ impl Region<'_> {
                 penalty: 1.0,
             };
             let here = surrogate.violation(&DVector::zeros(x.len()));
-            let least = surrogate.violation(&minimise(feasibility)?.d);
+            let least = surrogate.violation(&minimise(feasibility, None)?.d);
             self.infeasible = here > FEASIBLE && here - least < self.settled.gain;
             // Nine tenths of what feasibility alone would gain.
             let enough = (least + 0.1 * (here - least)).max(negligible);
             let mut penalty = self.penalty;
             while surrogate.violation(&step.d) > enough && penalty < HIGHEST_PENALTY {
                 penalty *= 10.0;
-                step = minimise(Weights {
+                let dearer = Weights {
                     objective: 1.0,
                     penalty,
-                })?;
+                };
+                step = minimise(dearer, Some(&step))?;
             }
             if surrogate.violation(&step.d) <= enough {
                 self.penalty = penalty;
             }
         }
+        self.step = Some(step.clone());
         Some(step)
     }
 

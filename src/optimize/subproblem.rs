@@ -39,6 +39,14 @@ pub(super) struct Step {
     pub constraints: Vec<f64>,
 }
 
+impl Step {
+    /// Whether two steps have multipliers of as many pieces.
+    fn is_like(&self, other: &Self) -> bool {
+        let pieces = |step: &Self| step.objectives.iter().map(Vec::len).collect::<Vec<_>>();
+        pieces(self) == pieces(other) && self.constraints.len() == other.constraints.len()
+    }
+}
+
 /// What a subproblem minimises.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Weights {
@@ -54,14 +62,15 @@ impl Weights {
     }
 }
 
-/// Minimises the surrogate inside the box `lower` ≤ d ≤ `upper`, whose size is `radius`. `None` if
-/// Clarabel fails.
+/// Minimises the surrogate inside the box `lower` ≤ d ≤ `upper`, whose size is `radius`. Multipliers of
+/// one `before`, nearby, are a good beginning. `None` if Clarabel fails.
 pub(super) fn minimise(
     surrogate: &Surrogate,
     lower: &DVector<f64>,
     upper: &DVector<f64>,
     radius: f64,
     weights: Weights,
+    before: Option<&Step>,
 ) -> Option<Step> {
     let equal =
         |pieces: &Vec<Quadratic>| vec![weights.objective / pieces.len() as f64; pieces.len()];
@@ -70,6 +79,10 @@ pub(super) fn minimise(
         objectives: surrogate.objectives.iter().map(equal).collect(),
         constraints: vec![0.0; surrogate.constraints.len()],
     };
+    if let Some(before) = before.filter(|before| before.is_like(&step)) {
+        step.objectives.clone_from(&before.objectives);
+        step.constraints.clone_from(&before.constraints);
+    }
     let mut best: Option<(f64, Step)> = None;
     let mut damping = 0.0;
     for _ in 0..PROGRAMS {

@@ -111,6 +111,7 @@ impl VerticalModel {
         builder.add_secondary(&mut system);
         builder.add_primary(&mut system);
         let order = builder.order();
+        system.mirrored = builder.mirrored();
         let excitation = |irregularity, first: usize, scale| Excitation {
             irregularity,
             inputs: std::array::from_fn(|i| order + first + i),
@@ -133,6 +134,18 @@ impl VerticalModel {
 impl Builder<'_> {
     fn order(&self) -> usize {
         AIR_SPRINGS + if self.air_spring.is_some() { 4 } else { 0 }
+    }
+
+    /// Air springs left and right, then all of the trucks in front and behind.
+    fn mirrored(&self) -> Vec<[usize; 2]> {
+        let trucks = (0..3).map(|k| [TRUCKS + k, TRUCKS + 3 + k]);
+        let springs = self
+            .air_spring
+            .map_or(&[][..], |_| &[[0, 1], [2, 3], [0, 2], [1, 3]]);
+        let springs = springs
+            .iter()
+            .map(|pair| pair.map(|corner| AIR_SPRINGS + corner));
+        springs.chain(trucks).collect()
     }
 
     fn masses(&self) -> Vec<f64> {

@@ -2,7 +2,7 @@
 
 use nalgebra::Complex;
 
-use super::pairs::Known;
+use crate::dynamics::Known;
 
 /// A complex cubic over 0…1.
 #[derive(Debug, Clone, Copy)]

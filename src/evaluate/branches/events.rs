@@ -2,14 +2,12 @@
 
 use nalgebra::Complex;
 
-use super::{
-    cubic::Between,
-    pairs::{Known, Pairs, Refiner, SETTLED},
-    search::Search,
-    state::State,
-};
+use super::{cubic::Between, search::Search, state::State};
 use crate::{
-    dynamics::elimination::{LANES, Lanes},
+    dynamics::{
+        Known, Pairs, Refiner, SETTLED,
+        elimination::{LANES, Lanes},
+    },
     evaluate::mode::{Mode, damping_ratio, damping_ratio_change, size},
 };
 
@@ -212,7 +210,7 @@ fn close(refiner: &mut Refiner, start: &State, brackets: &mut [Bracket]) -> Opti
             if bracket.found.is_some() {
                 continue;
             }
-            bracket.narrow(known, || pairs.mode(l))?;
+            bracket.narrow(known, || Mode::of_pair(&pairs, l))?;
         }
         if brackets.iter().all(|bracket| bracket.found.is_some()) {
             return apart(&pairs, brackets).then_some(());

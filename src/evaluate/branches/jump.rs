@@ -8,13 +8,12 @@ use nalgebra::Complex;
 use super::{
     cubic::Cubic,
     events::{Sought, find},
-    pairs::Known,
     search::Search,
     state::{STRONG, State},
     track::{Branches, take_nearest, worth_following},
 };
 use crate::{
-    dynamics::{LinearSystem, Poles, elimination::LANES},
+    dynamics::{Known, LinearSystem, Poles, elimination::LANES},
     evaluate::mode::{damping_ratio, size},
 };
 

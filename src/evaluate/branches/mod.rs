@@ -11,14 +11,12 @@
 mod cubic;
 mod events;
 mod jump;
-mod pairs;
 mod search;
 mod sector;
 mod state;
 mod track;
 
 pub use events::{Event, Sought};
-pub use pairs::{Known, Pairs, Refiner};
 pub use search::{Care, Search};
 pub use sector::modes_below;
 pub use track::{Branches, COMPLETE, Walked};

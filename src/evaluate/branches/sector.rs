@@ -5,11 +5,13 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use nalgebra::Complex;
 use pulp::{Simd, WithSimd};
 
-use super::pairs::Refiner;
 use crate::{
-    dynamics::elimination::{
-        Factors, LANES, Lanes, Reals, Stiffness,
-        lanes::{abs, add, div, mul, neg},
+    dynamics::{
+        Refiner,
+        elimination::{
+            Factors, LANES, Lanes, Reals, Stiffness,
+            lanes::{abs, add, div, mul, neg},
+        },
     },
     evaluate::mode::{damping_ratio, size},
 };

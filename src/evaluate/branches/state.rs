@@ -2,9 +2,11 @@
 
 use nalgebra::Complex;
 
-use super::pairs::{Known, Pairs, Refiner};
 use crate::{
-    dynamics::elimination::{LANES, Lanes},
+    dynamics::{
+        Known, Pairs, Refiner,
+        elimination::{LANES, Lanes},
+    },
     evaluate::mode::{damping_ratio, size},
 };
 
@@ -50,7 +52,9 @@ impl State {
         let shift = Complex::new(1.0 + 1e-8, 1e-8);
         let s = Lanes::from_fn(|l| shift * values[l]);
         let mut state = Self {
-            pairs: Pairs::near(s, [speed; LANES], refiner.order()),
+            pairs: Pairs::near(s, [speed; LANES], refiner.order(), |i, _| {
+                Pairs::anything(i)
+            }),
             alive,
         };
         if first.is_none() {

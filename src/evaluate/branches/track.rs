@@ -5,13 +5,12 @@ use nalgebra::Complex;
 use super::{
     cubic::Between,
     events::{Event, find},
-    pairs::{Known, Pairs, Refiner, SETTLED},
     search::Search,
     sector::modes_below,
     state::{STRONG, State},
 };
 use crate::{
-    dynamics::{LateralModel, Poles, elimination::LANES},
+    dynamics::{Known, LateralModel, Pairs, Poles, Refiner, SETTLED, elimination::LANES},
     evaluate::mode::{damping_ratio, size},
 };
 

@@ -290,15 +290,9 @@ fn add_forces<S: Simd>(
 #[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
 #[inline(always)]
 fn phases<S: Simd>(simd: S, omega: &Reals, lags: &[f64; 4], speed: f64) -> [Lanes; 4] {
-    let delayed = |lag: f64| {
-        let mut phase = Lanes::ZERO;
-        for l in 0..LANES {
-            let (sin, cos) = (omega[l] * lag / speed).sin_cos();
-            (phase.re[l], phase.im[l]) = (cos, -sin);
-        }
-        phase
-    };
-    let (wheelbase, trucks) = (delayed(lags[1] - lags[0]), delayed(lags[2] - lags[0]));
+    let angle = |lag: f64| mul(simd, omega, &[-lag / speed; LANES]);
+    let wheelbase = Lanes::on_unit_circle(simd, &angle(lags[1] - lags[0]));
+    let trucks = Lanes::on_unit_circle(simd, &angle(lags[2] - lags[0]));
     [
         Lanes::ONE,
         wheelbase,

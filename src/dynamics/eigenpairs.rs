@@ -3,15 +3,12 @@
 use nalgebra::{Complex, DVector};
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::{
-    dynamics::{
-        LinearSystem,
-        elimination::{
-            Factors, LANES, Lanes, Reals, Stiffness,
-            lanes::{add, div, sqrt},
-        },
+use super::{
+    LinearSystem,
+    elimination::{
+        Factors, LANES, Lanes, Reals, Stiffness,
+        lanes::{add, div, sqrt},
     },
-    evaluate::mode::Mode,
 };
 
 /// An eigenvalue and its slope at a speed.
@@ -43,11 +40,11 @@ pub struct Pairs {
     /// s, rad/s.
     pub s: Lanes,
     /// V, m/s.
-    pub speed: [f64; LANES],
+    pub speed: Reals,
     /// ds/d ln V.
     pub slope: Lanes,
     /// Change of s in the last step, relative.
-    pub change: [f64; LANES],
+    pub change: Reals,
     x: Vec<Lanes>,
     y: Vec<Lanes>,
     /// D′ x and D′ᵀ y.
@@ -56,11 +53,16 @@ pub struct Pairs {
 }
 
 impl Pairs {
-    /// Estimates of eigenvalues without vectors.
-    pub fn near(s: Lanes, speed: [f64; LANES], order: usize) -> Self {
-        // Any start that is in no coordinate plane.
+    /// Estimates of eigenvalues, and of what the vectors' coordinates may be in each lane: anything but
+    /// nothing of what they are.
+    pub fn near(
+        s: Lanes,
+        speed: Reals,
+        order: usize,
+        start: impl Fn(usize, usize) -> Complex<f64>,
+    ) -> Self {
         let start: Vec<Lanes> = (0..order)
-            .map(|i| Lanes::from_fn(|_| Complex::new(1.0, 0.3 + 0.1 * i as f64)))
+            .map(|i| Lanes::from_fn(|l| start(i, l)))
             .collect();
         Self {
             s,
@@ -72,6 +74,11 @@ impl Pairs {
             dx: start.clone(),
             dy: start,
         }
+    }
+
+    /// A coordinate of a vector that is in no coordinate plane.
+    pub fn anything(i: usize) -> Complex<f64> {
+        Complex::new(1.0, 0.3 + 0.1 * i as f64)
     }
 
     /// Takes what another holds, in the room that is there.
@@ -142,14 +149,9 @@ impl Pairs {
         }
     }
 
-    /// The mode in lane `l`.
-    pub fn mode(&self, l: usize) -> Option<Mode> {
-        let vector = |v: &[Lanes]| DVector::from_fn(v.len(), |i, _| v[i].lane(l));
-        Mode::normalised(
-            self.s.lane(l),
-            &vector(&self.x),
-            &vector(&self.y).map(|y| y.conj()),
-        )
+    /// x and y in lane `l`.
+    pub fn vectors(&self, l: usize) -> [DVector<Complex<f64>>; 2] {
+        [&self.x, &self.y].map(|v| DVector::from_fn(v.len(), |i, _| v[i].lane(l)))
     }
 }
 
@@ -163,7 +165,7 @@ pub struct Refiner {
 
 /// Relative change of s below which the next step would change nothing: its error falls with the
 /// cube of the one before.
-pub(super) const SETTLED: f64 = 1e-6;
+pub const SETTLED: f64 = 1e-6;
 /// |x̄ᵀ x′| above which two vectors of length one are nearly the same.
 const ALIKE: f64 = 0.98;
 /// And above which they have something in common: those of different modes are nearly orthogonal
@@ -190,7 +192,7 @@ impl Refiner {
     }
 
     /// The stiffness and room for its factors.
-    pub(super) fn parts(&mut self) -> (&Stiffness, &mut Factors, Arch) {
+    pub fn parts(&mut self) -> (&Stiffness, &mut Factors, Arch) {
         (&self.stiffness, &mut self.factors, self.arch)
     }
 
