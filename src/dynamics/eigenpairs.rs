@@ -257,7 +257,7 @@ impl WithSimd for Step<'_> {
         residual.copy_from_slice(dx);
         x.copy_from_slice(dx);
         y.copy_from_slice(dy);
-        stiffness.solve(simd, factors, x);
+        stiffness.solve(simd, factors, x, u32::MAX);
         stiffness.solve_transposed(simd, factors, y);
         let scale = normalise(simd, x);
         normalise(simd, y);

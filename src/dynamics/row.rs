@@ -2,16 +2,18 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
+use smallvec::{SmallVec, smallvec};
+
 /// A linear form Σ cᵢ xᵢ over the coordinates q and the inputs u of a model, in one numbering.
 ///
 /// Written as algebra: `y_c() + l_s * psi_c() - y_t(0)`.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Row(Vec<(usize, f64)>);
+pub struct Row(SmallVec<[(usize, f64); 6]>);
 
 impl Row {
     /// The form xᵢ.
     pub fn unit(index: usize) -> Self {
-        Self(vec![(index, 1.0)])
+        Self(smallvec![(index, 1.0)])
     }
 
     /// Terms (index, coefficient); an index may recur.

@@ -121,13 +121,45 @@ fn program(
 ) -> Option<Step> {
     let n = lower.len();
     let groups = surrogate.objectives.len();
-    let pieces: Vec<(usize, &Quadratic)> = surrogate
+    let pieces: Vec<(usize, Linear)> = surrogate
         .objectives
         .iter()
         .enumerate()
-        .flat_map(|(k, pieces)| pieces.iter().map(move |q| (k, q)))
+        .flat_map(|(k, pieces)| {
+            let pieces = pieces
+                .iter()
+                .map(|piece| Linear::new(piece, from, lower, upper));
+            let pieces: Vec<Linear> = pieces.collect();
+            // The largest is at least this, wherever the step goes.
+            let least = pieces.iter().map(|piece| piece.range[0]);
+            let least = least.fold(f64::NEG_INFINITY, f64::max);
+            let matter = pieces.into_iter().map(move |mut piece| {
+                piece.matters = piece.range[1] >= least;
+                piece
+            });
+            matter.map(move |piece| (k, piece)).collect::<Vec<_>>()
+        })
         .collect();
-    let (nf, nc) = (pieces.len(), surrogate.constraints.len());
+    let constraints: Vec<Linear> = surrogate
+        .constraints
+        .iter()
+        .map(|piece| {
+            let mut piece = Linear::new(piece, from, lower, upper);
+            piece.matters = piece.range[1] >= 0.0;
+            piece
+        })
+        .collect();
+    let base: Vec<f64> = (0..groups)
+        .map(|k| {
+            let values = pieces.iter().filter(|(of, _)| *of == k);
+            let values = values.map(|(_, piece)| piece.value);
+            values.fold(f64::NEG_INFINITY, f64::max)
+        })
+        .collect();
+    let (all, all_constraints) = (pieces.len(), constraints.len());
+    let mattering: Vec<&(usize, Linear)> = pieces.iter().filter(|(_, p)| p.matters).collect();
+    let binding: Vec<&Linear> = constraints.iter().filter(|p| p.matters).collect();
+    let (nf, nc) = (mattering.len(), binding.len());
     // Variables: s (n), t (groups), e. In radii.
     let columns = n + groups + 1;
     let slack = n + groups;
@@ -142,25 +174,18 @@ fn program(
     let mut a = DMatrix::zeros(rows, columns);
     let mut b = vec![0.0; rows];
     // Values relative to the largest of their group: what matters is small beside them.
-    let base: Vec<f64> = surrogate
-        .objectives
-        .iter()
-        .map(|pieces| {
-            let values = pieces.iter().map(|q| q.at(&from.d));
-            values.fold(f64::NEG_INFINITY, f64::max)
-        })
-        .collect();
-    for (row, (k, piece)) in pieces.iter().enumerate() {
+    for (row, (k, piece)) in mattering.iter().enumerate() {
         a.view_mut((row, 0), (1, n))
-            .copy_from(&piece.gradient_at(&from.d).transpose());
+            .copy_from(&piece.gradient.transpose());
         a[(row, n + k)] = -1.0;
-        b[row] = (base[*k] - piece.at(&from.d)) / radius;
+        b[row] = (base[*k] - piece.value) / radius;
     }
-    for (j, piece) in surrogate.constraints.iter().enumerate() {
-        a.view_mut((nf + j, 0), (1, n))
-            .copy_from(&piece.gradient_at(&from.d).transpose());
-        a[(nf + j, slack)] = -1.0;
-        b[nf + j] = -piece.at(&from.d) / radius;
+    for (j, piece) in binding.iter().enumerate() {
+        let row = nf + j;
+        a.view_mut((row, 0), (1, n))
+            .copy_from(&piece.gradient.transpose());
+        a[(row, slack)] = -1.0;
+        b[row] = -piece.value / radius;
     }
     a[(nf + nc, slack)] = -1.0;
     for i in 0..n {
@@ -172,7 +197,14 @@ fn program(
     }
     let (x, z) = solve(&p, &q, &a, &b, 0)?;
     let s = DVector::from_column_slice(&x[..n]) * radius;
-    let mut multipliers = z[..nf].iter().copied();
+    // What cannot matter has none.
+    let mut found = z.iter().copied();
+    let mut multiplier = |piece: &Linear| if piece.matters { found.next() } else { None };
+    let mut multipliers = Vec::with_capacity(all + all_constraints);
+    for piece in pieces.iter().map(|(_, piece)| piece).chain(&constraints) {
+        multipliers.push(multiplier(piece).unwrap_or(0.0));
+    }
+    let mut multipliers = multipliers.into_iter();
     Some(Step {
         d: (&from.d + s).zip_zip_map(lower, upper, f64::clamp),
         objectives: surrogate
@@ -180,8 +212,34 @@ fn program(
             .iter()
             .map(|pieces| multipliers.by_ref().take(pieces.len()).collect())
             .collect(),
-        constraints: z[nf..nf + nc].to_vec(),
+        constraints: multipliers.collect(),
     })
+}
+
+/// A piece linearised at a step, and between what values it can be within the box.
+struct Linear {
+    value: f64,
+    gradient: DVector<f64>,
+    range: [f64; 2],
+    matters: bool,
+}
+
+impl Linear {
+    fn new(piece: &Quadratic, from: &Step, lower: &DVector<f64>, upper: &DVector<f64>) -> Self {
+        let (value, gradient) = (piece.at(&from.d), piece.gradient_at(&from.d));
+        let mut range = [value; 2];
+        for (i, slope) in gradient.iter().enumerate() {
+            let ends = [lower[i], upper[i]].map(|end| slope * (end - from.d[i]));
+            range[0] += ends[0].min(ends[1]);
+            range[1] += ends[0].max(ends[1]);
+        }
+        Self {
+            value,
+            gradient,
+            range,
+            matters: true,
+        }
+    }
 }
 
 /// Solves min ½ xᵀPx + qᵀx subject to Ax = b in the first `equalities` rows and Ax ≤ b in the rest;

@@ -48,18 +48,14 @@ struct Pivot {
 // Compiled into the caller, where the vector unit is known.
 #[allow(clippy::inline_always)]
 impl Pattern {
-    /// The elimination of matrices of order `n`, at most 32, with nonzeros where `filled` says; the
-    /// diagonal is always taken as such.
-    pub fn new(n: usize, filled: impl Fn(usize, usize) -> bool) -> Self {
+    /// The elimination of matrices of order `n`, at most 32, with nonzeros on the diagonal and at some
+    /// rows and columns.
+    pub fn new(n: usize, filled: impl Iterator<Item = (usize, usize)>) -> Self {
         // Columns of the nonzeros of each row, and rows of those of each column, as bits.
         let (mut rows, mut columns) = ([0_u32; 32], [0_u32; 32]);
-        for i in 0..n {
-            for j in 0..n {
-                if i == j || filled(i, j) {
-                    rows[i] |= 1 << j;
-                    columns[j] |= 1 << i;
-                }
-            }
+        for (i, j) in filled.chain((0..n).map(|i| (i, i))) {
+            rows[i] |= 1 << j;
+            columns[j] |= 1 << i;
         }
         let mut rest = u32::MAX >> (32 - n);
         let mut steps = Vec::with_capacity(n);
@@ -192,17 +188,19 @@ impl Pattern {
         product
     }
 
-    /// x ← A⁻¹ x with the factors of [`Pattern::factor`].
+    /// x ← A⁻¹ x with the factors of [`Pattern::factor`], where only coordinates whose bits are set in
+    /// `moved` are not zero, before and after.
     #[inline(always)]
-    pub fn solve<S: Simd>(&self, simd: S, a: &[Lanes], x: &mut [Lanes]) {
-        for pivot in &self.pivots {
+    pub fn solve<S: Simd>(&self, simd: S, a: &[Lanes], x: &mut [Lanes], moved: u32) {
+        let moves = |pivot: &&Pivot| moved & (1 << pivot.coordinate) != 0;
+        for pivot in self.pivots.iter().filter(moves) {
             let known = x[pivot.coordinate];
             for entry in &self.lower[pivot.lower.clone()] {
                 let i = usize::from(entry.coordinate);
                 x[i] = x[i].minus_product(simd, &a[usize::from(entry.slot)], &known);
             }
         }
-        for pivot in self.pivots.iter().rev() {
+        for pivot in self.pivots.iter().rev().filter(moves) {
             let mut sum = x[pivot.coordinate];
             for entry in &self.upper[pivot.upper.clone()] {
                 let other = &x[usize::from(entry.coordinate)];

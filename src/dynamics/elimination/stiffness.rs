@@ -50,26 +50,29 @@ impl Stiffness {
     /// Of a system.
     pub fn new(system: &LinearSystem) -> Self {
         let n = system.order();
-        let dampings = |i: usize, j: usize| system.damping.each_ref().map(|c| c[(i, j)]);
-        let filled = |i: usize, j: usize| {
-            system.stiffness[(i, j)] != 0.0 || dampings(i, j).iter().any(|c| *c != 0.0)
-        };
-        let pattern = Pattern::new(n, filled);
-        let mut entries = Vec::with_capacity(pattern.count());
+        let [c0, c1, c2] = &system.damping;
+        let mut entries = Vec::with_capacity(8 * n);
         for row in 0..n {
-            for column in (0..n).filter(|&j| row == j || filled(row, j)) {
-                let Some(slot) = pattern.slot(row, column) else {
-                    continue;
-                };
-                entries.push(Entry {
-                    row,
-                    column,
-                    slot,
-                    k: system.stiffness[(row, column)],
-                    c: dampings(row, column),
-                    m: if row == column { system.mass[row] } else { 0.0 },
-                });
+            for column in 0..n {
+                let at = (row, column);
+                let (k, c) = (system.stiffness[at], [c0[at], c1[at], c2[at]]);
+                if row == column || k != 0.0 || c.iter().any(|c| *c != 0.0) {
+                    let m = if row == column { system.mass[row] } else { 0.0 };
+                    let slot = 0;
+                    entries.push(Entry {
+                        row,
+                        column,
+                        slot,
+                        k,
+                        c,
+                        m,
+                    });
+                }
             }
+        }
+        let pattern = Pattern::new(n, entries.iter().map(|e: &Entry| (e.row, e.column)));
+        for entry in &mut entries {
+            entry.slot = pattern.slot(entry.row, entry.column).unwrap_or_default();
         }
         let mut filled = vec![false; pattern.count()];
         for entry in &entries {
@@ -162,10 +165,24 @@ impl Stiffness {
         factors.sound = self.pattern.factor(simd, a, diagonal);
     }
 
-    /// x ← D⁻¹ x.
+    /// Coordinates that move when some do, as bits.
+    pub fn moved(&self, by: u32) -> u32 {
+        let (mut moved, mut before) = (by, 0);
+        while moved != before {
+            before = moved;
+            for entry in &self.entries {
+                if moved & (1 << entry.column) != 0 {
+                    moved |= 1 << entry.row;
+                }
+            }
+        }
+        moved
+    }
+
+    /// x ← D⁻¹ x, where only coordinates whose bits are set in `moved` move.
     #[inline(always)]
-    pub fn solve<S: Simd>(&self, simd: S, factors: &Factors, x: &mut [Lanes]) {
-        self.pattern.solve(simd, &factors.a, x);
+    pub fn solve<S: Simd>(&self, simd: S, factors: &Factors, x: &mut [Lanes], moved: u32) {
+        self.pattern.solve(simd, &factors.a, x, moved);
     }
 
     /// x ← D⁻ᵀ x.

@@ -247,12 +247,14 @@ fn finished(sought: Sought, known: &Known) -> Option<Known> {
 /// Whether a branch has a minimum of damping between two speeds that may fall below a value.
 fn minimum(low: &Known, high: &Known, below: f64) -> bool {
     let [falls, rises] = [low, high].map(|known| damping_ratio_change(known.s, known.slope));
-    if !(falls < 0.0 && rises >= 0.0) {
+    let ends = damping_ratio(low.s).min(damping_ratio(high.s));
+    // Straight down and up again would be lowest of all.
+    let lowest = ends - (high.speed / low.speed).ln() * rises.max(-falls);
+    if !(falls < 0.0 && rises >= 0.0 && lowest < below) {
         return false;
     }
     let (known, _) = expected(Sought::Minimum, low, high);
     // The cubic may be off by as much as it is below its ends.
-    let ends = damping_ratio(low.s).min(damping_ratio(high.s));
     let least = damping_ratio(known.s);
     least - (ends - least) < below
 }

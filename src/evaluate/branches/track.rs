@@ -38,7 +38,7 @@ pub struct Branches<'m> {
     start: State,
     /// Room for the next state.
     spare: Option<State>,
-    /// The modes before and after each step of all walks, in ascending speed.
+    /// The modes before and after each step in which something was found, in ascending speed.
     steps: Vec<[[Option<Known>; LANES]; 2]>,
     /// Real eigenvalues that grow, none or one: then at every speed, as det K is negative.
     growing: usize,
@@ -180,9 +180,11 @@ impl<'m> Branches<'m> {
                     }
                     continue;
                 }
-                let step = [now.all(), next.all()];
-                let up = next.speed() > now.speed();
-                self.steps.push(if up { step } else { [step[1], step[0]] });
+                if search.events.len() > events {
+                    let step = [now.all(), next.all()];
+                    let up = next.speed() > now.speed();
+                    self.steps.push(if up { step } else { [step[1], step[0]] });
+                }
                 self.spare = last.replace(std::mem::replace(&mut now, next));
             } else {
                 self.spare = Some(next);
@@ -261,7 +263,7 @@ impl<'m> Branches<'m> {
         counted.map(|counted| self.agrees(counted, 0))
     }
 
-    /// One mode and the others at a speed that was passed on a walk.
+    /// One mode and the others at a speed near which it was found.
     fn passed(&mut self, speed: f64, one: Complex<f64>) -> Vec<Complex<f64>> {
         let within = |[low, high]: [Known; 2]| low.speed <= speed && speed <= high.speed;
         let both = |[low, high]: &[[Option<Known>; LANES]; 2], l: usize| {

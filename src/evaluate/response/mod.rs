@@ -23,7 +23,7 @@ use crate::{
     },
     track::Track,
 };
-use terms::{Coupling, Force, Moving, OutputTerms};
+use terms::{ALL, Coupling, Force, Moving, OutputTerms};
 
 /// A forced model at one speed, ready to be evaluated at many frequencies, [`LANES`] at a time,
 /// without allocation.
@@ -41,6 +41,8 @@ pub struct Response<'a> {
 /// One excitation: what it puts on the coordinates, what outputs it reaches, and the response.
 struct Excited {
     forces: Vec<Force>,
+    /// Coordinates that it moves, as bits: in a symmetric model not all.
+    moved: u32,
     outputs: Vec<OutputTerms>,
     q: Vec<Lanes>,
     /// `None`: nothing changes.
@@ -58,6 +60,16 @@ struct Tangent {
 }
 
 impl Tangent {
+    /// Coordinates on which it acts, as bits, where some are moved.
+    fn coordinates(&self, moved: u32) -> u32 {
+        let couplings = self.couplings.iter();
+        couplings
+            .filter(|coupling| moved & (1 << coupling.column) != 0)
+            .fold(terms::coordinates(&self.forces), |all, coupling| {
+                all | 1 << coupling.row
+            })
+    }
+
     fn is_zero(&self) -> bool {
         let none = self.forces.is_empty() && self.couplings.is_empty();
         none && self.outputs.iter().all(Option::is_none)
@@ -76,13 +88,18 @@ impl<'a> Response<'a> {
         let stiffness = Stiffness::new(system);
         let mut factors = stiffness.factors();
         stiffness.set_speed(speed, &mut factors);
-        let excitations = model.excitations.iter().map(|excitation| Excited {
-            forces: terms::forces(system, excitation, speed),
-            outputs: terms::outputs(model, excitation, outputs.clone()),
-            q: vec![Lanes::ZERO; system.order()],
-            tangents: Vec::new(),
-            dq: vec![Lanes::ZERO; system.order()],
-            transfers: vec![Lanes::ZERO; outputs.len()],
+        let excitations = model.excitations.iter().map(|excitation| {
+            let forces = terms::forces(system, excitation, speed);
+            let moved = stiffness.moved(terms::coordinates(&forces));
+            Excited {
+                outputs: terms::outputs(model, excitation, outputs.clone(), moved),
+                forces,
+                moved,
+                q: vec![Lanes::ZERO; system.order()],
+                tangents: Vec::new(),
+                dq: vec![Lanes::ZERO; system.order()],
+                transfers: vec![Lanes::ZERO; outputs.len()],
+            }
         });
         Self {
             excitations: excitations.collect(),
@@ -105,7 +122,7 @@ impl<'a> Response<'a> {
                 let (forces, couplings) =
                     terms::tangents(&tangent.system, order, excitation, self.speed);
                 let outputs = tangent.outputs[self.outputs.clone()].iter();
-                let terms = |output| OutputTerms::new(output, excitation, order);
+                let terms = |output| OutputTerms::new(output, excitation, order, ALL);
                 let tangent = Tangent {
                     forces,
                     couplings,
@@ -114,6 +131,15 @@ impl<'a> Response<'a> {
                 (!tangent.is_zero()).then_some(tangent)
             };
             excited.tangents = tangents.iter().map(of).collect();
+            // A change that breaks the symmetry moves more.
+            let tangents = excited.tangents.iter().flatten();
+            let by = tangents.map(|tangent| tangent.coordinates(excited.moved));
+            let by = by.fold(excited.moved, |all, some| all | some);
+            if by != excited.moved {
+                excited.moved = self.stiffness.moved(by);
+                let range = self.outputs.clone();
+                excited.outputs = terms::outputs(self.model, excitation, range, excited.moved);
+            }
         }
         self
     }
@@ -202,6 +228,7 @@ impl WithSimd for Batch<'_, '_> {
         for (excited, excitation) in excitations.iter_mut().zip(&model.excitations) {
             let Excited {
                 forces,
+                moved,
                 outputs,
                 q,
                 tangents,
@@ -210,7 +237,7 @@ impl WithSimd for Batch<'_, '_> {
             } = excited;
             q.fill(Lanes::ZERO);
             add_forces(simd, q, forces, &omega, &phases);
-            stiffness.solve(simd, factors, q);
+            stiffness.solve(simd, factors, q, *moved);
             // S in time frequency: S(Ω) dΩ/df with Ω = 2πf/V (3.4.2-5, 6).
             let spectrum = track.spectrum(excitation.irregularity);
             let input = omega.map(|omega| spectrum.density(omega / *speed) * TAU / *speed);
@@ -237,7 +264,7 @@ impl WithSimd for Batch<'_, '_> {
                     let (row, from) = (coupling.row, &q[coupling.column]);
                     dq[row] = dq[row].plus_product(simd, &transmitted, from);
                 }
-                stiffness.solve(simd, factors, dq);
+                stiffness.solve(simd, factors, dq, *moved);
                 let dx = Moving {
                     coordinates: dq,
                     rails: &[Lanes::ZERO; 4],

@@ -99,26 +99,40 @@ pub(super) struct OutputTerms {
     acceleration: Vec<(Source, f64)>,
 }
 
-/// Some outputs of a model.
+/// All coordinates, as bits.
+pub(super) const ALL: u32 = u32::MAX;
+
+/// Coordinates on which forces act, as bits.
+pub(super) fn coordinates(forces: &[Force]) -> u32 {
+    forces
+        .iter()
+        .fold(0, |all, force| all | 1 << force.coordinate)
+}
+
+/// Some outputs of a model of which only some coordinates are moved.
 pub(super) fn outputs(
     model: &ForcedModel,
     excitation: &Excitation,
     range: Range<usize>,
+    moved: u32,
 ) -> Vec<OutputTerms> {
     let n = model.system.order();
     let outputs = model.outputs[range].iter();
     outputs
-        .map(|output| OutputTerms::new(output, excitation, n))
+        .map(|output| OutputTerms::new(output, excitation, n, moved))
         .collect()
 }
 
 impl OutputTerms {
-    /// Of an output of a model with `n` coordinates.
-    pub fn new(output: &Output, excitation: &Excitation, n: usize) -> Self {
+    /// Of an output of a model with `n` coordinates, of which only some are moved.
+    pub fn new(output: &Output, excitation: &Excitation, n: usize, moved: u32) -> Self {
         let terms = |row: &Row| {
-            let mut terms: Vec<(Source, f64)> = Vec::new();
+            let mut terms: Vec<(Source, f64)> = Vec::with_capacity(row.terms().len());
             for &(i, c) in row.terms() {
                 let (source, c) = if i < n {
+                    if moved & (1 << i) == 0 {
+                        continue;
+                    }
                     (Source::Coordinate(i), c)
                 } else {
                     let Some(wheelset) = excitation.inputs.iter().position(|&j| j == i) else {
