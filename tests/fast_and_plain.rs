@@ -4,17 +4,19 @@ mod support;
 
 use bogie::{
     case::Case,
+    design::tasks::Tasks,
     dynamics::{LateralModel, Poles, VerticalModel, eigenvalues, elimination::LANES},
     evaluate::{
         critical_speed::Stability,
         damping_range::DampingRange,
         response::{Response, plain},
     },
+    index::Index,
     vehicle::AirSpring,
 };
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use support::{MPH, assert_ratio, random_vehicle};
+use support::{MPH, assert_ratio, problem, random_vehicle};
 
 /// Vehicles near the prototype, and ones far from it: stable everywhere, unstable everywhere,
 /// overturning, lightly damped.
@@ -137,6 +139,31 @@ fn least_damping_is_that_of_full_spectra_or_lower() {
     }
     assert!(compared > 60, "{compared} compared");
     assert!(lower < compared / 20, "{lower} of {compared} lower");
+}
+
+/// Designs of the urban example whose trucks' modes lose their damping one after the other: what is
+/// found of one must not be the other, which at that speed is still damped.
+#[test]
+fn twins_are_told_apart_where_they_lose_their_damping() {
+    let spec = problem("urban-80mph");
+    let tasks = Tasks::new(&spec);
+    let profiles: Vec<f64> = tasks.profiles(&spec.case);
+    for (profile, i) in [(0, 54.0_f64), (1, 7.0)] {
+        let mut case = spec.case.clone();
+        case.wheel_rail.conicity = profiles[profile];
+        let study = tasks.bare(&case, &Index::ALL);
+        let primes = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0_f64];
+        let x: Vec<f64> = primes.iter().map(|p| (i * p.sqrt()).fract()).collect();
+        let case = study.design(&x[..study.parameters().len()]);
+        let model = LateralModel::new(&case);
+        let poles = poles(&model, &case);
+        let fast = Stability::new(&model, &poles, case.model.speed_range, 1.0).unwrap();
+        let critical = fast.critical_speed().unwrap();
+        for (share, stable) in [(1.0 - 1e-6, true), (1.0 + 1e-6, false)] {
+            let poles = Poles::at(&model.forced.system, critical * share).unwrap();
+            assert_eq!(poles.stable(), stable, "profile {profile}, {share}");
+        }
+    }
 }
 
 /// The symmetric vertical model's eigenvalues, found in parts, are those of the whole: also with air

@@ -115,7 +115,6 @@ fn main() {
         Lanes::from_fn(|_| s),
         [case.service.speed; LANES],
         system.order(),
-        |i, _| Pairs::anything(i),
     );
     let step = lanes * elimination.rayleigh_step();
     let step_time = microseconds(|| refiner.step(&mut pairs));

@@ -53,16 +53,11 @@ pub struct Pairs {
 }
 
 impl Pairs {
-    /// Estimates of eigenvalues, and of what the vectors' coordinates may be in each lane: anything but
-    /// nothing of what they are.
-    pub fn near(
-        s: Lanes,
-        speed: Reals,
-        order: usize,
-        start: impl Fn(usize, usize) -> Complex<f64>,
-    ) -> Self {
+    /// Estimates of eigenvalues without vectors.
+    pub fn near(s: Lanes, speed: Reals, order: usize) -> Self {
+        // Any start that is in no coordinate plane.
         let start: Vec<Lanes> = (0..order)
-            .map(|i| Lanes::from_fn(|l| start(i, l)))
+            .map(|i| Lanes::from_fn(|_| Complex::new(1.0, 0.3 + 0.1 * i as f64)))
             .collect();
         Self {
             s,
@@ -74,11 +69,6 @@ impl Pairs {
             dx: start.clone(),
             dy: start,
         }
-    }
-
-    /// A coordinate of a vector that is in no coordinate plane.
-    pub fn anything(i: usize) -> Complex<f64> {
-        Complex::new(1.0, 0.3 + 0.1 * i as f64)
     }
 
     /// Takes what another holds, in the room that is there.

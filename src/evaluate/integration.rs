@@ -217,6 +217,8 @@ pub fn integrate(
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Complex;
+
     use super::*;
 
     #[test]
@@ -231,6 +233,28 @@ mod tests {
         assert!((result.total(0) / ((2.0 / c).atan() + (1.0 / c).atan()) - 1.0).abs() < 1e-10);
         assert!((result.total(1) / 121.5 - 1.0).abs() < 1e-13);
         assert!((result.band(0, 1) / (0.5_f64.powi(6) / 6.0) - 1.0).abs() < 1e-13);
+    }
+
+    /// ∫ dx/(z − x) over (−1, 1) = ln((z + 1)/(z − 1)), with z on the smallest ellipse that panels leave free
+    /// of poles.
+    #[test]
+    fn the_error_of_a_pole_is_within_its_estimate() {
+        for angle in [0.1, 0.7, 1.3, 1.57] {
+            let u: Complex<f64> = Complex::from_polar(1.78, angle);
+            let z: Complex<f64> = (u + u.inv()) / 2.0;
+            let exact: Complex<f64> = Complex::ln((z + 1.0) / (z - 1.0));
+            let [integral, odd, even]: [Complex<f64>; SUMS] = std::array::from_fn(|k| {
+                let groups = rule().into_iter();
+                let terms =
+                    groups.flat_map(|g| (0..LANES).map(move |l| (g.nodes[l], g.weights[k][l])));
+                terms.map(|(x, weight)| (z - x).inv() * weight).sum()
+            });
+            let (error, estimate) = ((integral - exact).norm(), FALL * (odd.norm() + even.norm()));
+            assert!(
+                error < estimate && estimate < 10.0 * error,
+                "{error} {estimate}"
+            );
+        }
     }
 
     #[test]

@@ -115,8 +115,8 @@ fn walk(
             walk: &mut walk,
         });
     }
-    let degree = 2 * (order - known.len());
-    let count = (degree as f64 * angle - walk.turned) / TAU;
+    let degree = 2.0 * (order as f64 - known.len() as f64);
+    let count = (degree * angle - walk.turned) / TAU;
     // A positive real eigenvalue counts half.
     let whole = (2.0 * count).round() / 2.0;
     (walk.sure && (count - whole).abs() < UNSURE).then_some(whole)

@@ -52,9 +52,7 @@ impl State {
         let shift = Complex::new(1.0 + 1e-8, 1e-8);
         let s = Lanes::from_fn(|l| shift * values[l]);
         let mut state = Self {
-            pairs: Pairs::near(s, [speed; LANES], refiner.order(), |i, _| {
-                Pairs::anything(i)
-            }),
+            pairs: Pairs::near(s, [speed; LANES], refiner.order()),
             alive,
         };
         if first.is_none() {
