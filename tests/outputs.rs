@@ -83,22 +83,20 @@ fn a_disk_that_fills_up_leaves_the_old_file() {
     assert_eq!(names(folder.path()), ["evaluate.json"]);
 }
 
+/// A call whose text nobody reads.
+fn unread(args: &[&str]) -> Output {
+    let mut call = bogie(args);
+    let call = call.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = call.spawn().unwrap();
+    drop(child.stdout.take());
+    child.wait_with_output().unwrap()
+}
+
 /// As with `bogie … | head -1`.
 #[test]
 fn a_reader_that_goes_away_is_no_failure() {
-    let mut child = bogie(&[
-        "psd",
-        "problems/prototype.toml",
-        "--csv",
-        "--points",
-        "5000",
-    ])
-    .stdout(Stdio::piped())
-    .stderr(Stdio::piped())
-    .spawn()
-    .unwrap();
-    drop(child.stdout.take());
-    let output = child.wait_with_output().unwrap();
+    let spec = "problems/prototype.toml";
+    let output = unread(&["psd", spec, "--csv", "--points", "5000"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(stderr(&output), "");
 }
@@ -141,13 +139,7 @@ fn the_report_is_written_whoever_reads_the_text() {
     let page = folder.path().join("page.html");
     let spec = "problems/intercity-130mph.toml";
     let page_name = page.display().to_string();
-    let mut child = bogie(&["optimize", spec, "--budget", "1", "--report", &page_name])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    drop(child.stdout.take());
-    let output = child.wait_with_output().unwrap();
+    let output = unread(&["optimize", spec, "--budget", "1", "--report", &page_name]);
     // One evaluation does not meet the requirements.
     assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
     assert!(page.exists());

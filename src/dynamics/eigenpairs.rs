@@ -6,7 +6,7 @@ use pulp::{Arch, Simd, WithSimd};
 use super::{
     LinearSystem,
     elimination::{
-        Factors, LANES, Lanes, Reals, Stiffness,
+        ALL, Factors, LANES, Lanes, Reals, Stiffness,
         lanes::{add, div, sqrt},
     },
 };
@@ -247,7 +247,7 @@ impl WithSimd for Step<'_> {
         residual.copy_from_slice(dx);
         x.copy_from_slice(dx);
         y.copy_from_slice(dy);
-        stiffness.solve(simd, factors, x, u32::MAX);
+        stiffness.solve(simd, factors, x, ALL);
         stiffness.solve_transposed(simd, factors, y);
         let scale = normalise(simd, x);
         normalise(simd, y);

@@ -121,49 +121,34 @@ fn program(
 ) -> Option<Step> {
     let n = lower.len();
     let groups = surrogate.objectives.len();
-    let pieces: Vec<(usize, Linear)> = surrogate
+    let linear = |piece: &Quadratic| Linear::new(piece, from, lower, upper);
+    let mut objectives: Vec<Vec<Linear>> = surrogate
         .objectives
         .iter()
-        .enumerate()
-        .flat_map(|(k, pieces)| {
-            let pieces = pieces
-                .iter()
-                .map(|piece| Linear::new(piece, from, lower, upper));
-            let pieces: Vec<Linear> = pieces.collect();
-            // The largest is at least this, wherever the step goes.
-            let least = pieces.iter().map(|piece| piece.range[0]);
-            let least = least.fold(f64::NEG_INFINITY, f64::max);
-            let matter = pieces.into_iter().map(move |mut piece| {
-                piece.matters = piece.range[1] >= least;
-                piece
-            });
-            matter.map(move |piece| (k, piece)).collect::<Vec<_>>()
-        })
+        .map(|pieces| pieces.iter().map(linear).collect())
         .collect();
-    let constraints: Vec<Linear> = surrogate
-        .constraints
-        .iter()
-        .map(|piece| {
-            let mut piece = Linear::new(piece, from, lower, upper);
-            piece.matters = piece.range[1] >= 0.0;
-            piece
-        })
-        .collect();
-    let base: Vec<f64> = (0..groups)
-        .map(|k| {
-            let values = pieces.iter().filter(|(of, _)| *of == k);
-            let values = values.map(|(_, piece)| piece.value);
-            values.fold(f64::NEG_INFINITY, f64::max)
-        })
-        .collect();
-    let (all, all_constraints) = (pieces.len(), constraints.len());
-    let mattering: Vec<&(usize, Linear)> = pieces.iter().filter(|(_, p)| p.matters).collect();
-    let binding: Vec<&Linear> = constraints.iter().filter(|p| p.matters).collect();
-    let (nf, nc) = (mattering.len(), binding.len());
-    // Variables: s (n), t (groups), e. In radii.
-    let columns = n + groups + 1;
+    for pieces in &mut objectives {
+        // The largest is at least this, wherever the step goes.
+        let least = pieces.iter().map(|piece| piece.range[0]);
+        let least = least.fold(f64::NEG_INFINITY, f64::max);
+        leave_out_below(pieces, least);
+    }
+    let mut constraints: Vec<Linear> = surrogate.constraints.iter().map(linear).collect();
+    leave_out_below(&mut constraints, 0.0);
+    // Column of the variable that is to be above each piece, and what its value counts from: the largest
+    // of an objective, as what matters is small beside that.
     let slack = n + groups;
-    let rows = nf + nc + 1 + 2 * n;
+    let of_objectives = objectives.iter().enumerate().flat_map(|(k, pieces)| {
+        let values = pieces.iter().map(|piece| piece.value);
+        let base = values.fold(f64::NEG_INFINITY, f64::max);
+        pieces.iter().map(move |piece| (n + k, base, piece))
+    });
+    let of_constraints = constraints.iter().map(|piece| (slack, 0.0, piece));
+    let mut pieces: Vec<(usize, f64, &Linear)> = of_objectives.chain(of_constraints).collect();
+    pieces.retain(|(.., piece)| piece.matters);
+    // Variables: s (n), t (groups), e. In radii.
+    let columns = slack + 1;
+    let rows = pieces.len() + 1 + 2 * n;
     let mut p = DMatrix::zeros(columns, columns);
     let hessian = lagrangian_hessian(surrogate, from) * radius;
     p.view_mut((0, 0), (n, n))
@@ -173,23 +158,15 @@ fn program(
     q[slack] = weights.penalty;
     let mut a = DMatrix::zeros(rows, columns);
     let mut b = vec![0.0; rows];
-    // Values relative to the largest of their group: what matters is small beside them.
-    for (row, (k, piece)) in mattering.iter().enumerate() {
+    for (row, (column, base, piece)) in pieces.iter().enumerate() {
         a.view_mut((row, 0), (1, n))
             .copy_from(&piece.gradient.transpose());
-        a[(row, n + k)] = -1.0;
-        b[row] = (base[*k] - piece.value) / radius;
+        a[(row, *column)] = -1.0;
+        b[row] = (base - piece.value) / radius;
     }
-    for (j, piece) in binding.iter().enumerate() {
-        let row = nf + j;
-        a.view_mut((row, 0), (1, n))
-            .copy_from(&piece.gradient.transpose());
-        a[(row, slack)] = -1.0;
-        b[row] = -piece.value / radius;
-    }
-    a[(nf + nc, slack)] = -1.0;
+    a[(pieces.len(), slack)] = -1.0;
     for i in 0..n {
-        let row = nf + nc + 1 + 2 * i;
+        let row = pieces.len() + 1 + 2 * i;
         a[(row, i)] = 1.0;
         b[row] = (upper[i] - from.d[i]) / radius;
         a[(row + 1, i)] = -1.0;
@@ -197,23 +174,27 @@ fn program(
     }
     let (x, z) = solve(&p, &q, &a, &b, 0)?;
     let s = DVector::from_column_slice(&x[..n]) * radius;
+    let mut found = z.into_iter();
     // What cannot matter has none.
-    let mut found = z.iter().copied();
-    let mut multiplier = |piece: &Linear| if piece.matters { found.next() } else { None };
-    let mut multipliers = Vec::with_capacity(all + all_constraints);
-    for piece in pieces.iter().map(|(_, piece)| piece).chain(&constraints) {
-        multipliers.push(multiplier(piece).unwrap_or(0.0));
-    }
-    let mut multipliers = multipliers.into_iter();
+    let mut multiplier = |piece: &Linear| {
+        let own = if piece.matters { found.next() } else { None };
+        own.unwrap_or(0.0)
+    };
     Some(Step {
         d: (&from.d + s).zip_zip_map(lower, upper, f64::clamp),
-        objectives: surrogate
-            .objectives
+        objectives: objectives
             .iter()
-            .map(|pieces| multipliers.by_ref().take(pieces.len()).collect())
+            .map(|pieces| pieces.iter().map(&mut multiplier).collect())
             .collect(),
-        constraints: multipliers.collect(),
+        constraints: constraints.iter().map(multiplier).collect(),
     })
+}
+
+/// Leaves out pieces that stay below a value wherever the step goes.
+fn leave_out_below(pieces: &mut [Linear], value: f64) {
+    for piece in pieces {
+        piece.matters = piece.range[1] >= value;
+    }
 }
 
 /// A piece linearised at a step, and between what values it can be within the box.

@@ -22,6 +22,9 @@ pub struct Pattern {
     count: usize,
 }
 
+/// All coordinates, as bits.
+pub const ALL: u32 = u32::MAX;
+
 /// Square of the share of a diagonal entry below which a pivot is too small: ten of sixteen digits
 /// remain.
 const LOST: f64 = 1e-12;

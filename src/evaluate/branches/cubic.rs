@@ -30,6 +30,7 @@ impl Cubic {
 
 /// An eigenvalue between two speeds, as a cubic in ln V with the values and slopes there.
 pub(super) struct Between {
+    /// Lower speed, m/s, and the way to the higher in ln V.
     low: f64,
     length: f64,
     cubic: Cubic,
@@ -44,25 +45,27 @@ impl Between {
         let length = (high.speed / low.speed).ln();
         let [a, b] = [low, high].map(|known| [known.s, known.slope * length]);
         Self {
-            low: low.speed.ln(),
+            low: low.speed,
             length,
             cubic: Cubic::new(a, b),
         }
     }
 
     /// s and ds/d ln V at a share `t` of the way.
-    pub fn at(&self, t: f64) -> [Complex<f64>; 2] {
+    fn at(&self, t: f64) -> [Complex<f64>; 2] {
         [self.cubic.value(t), self.cubic.slope(t) / self.length]
     }
 
-    /// s and ds/d ln V at a speed, m/s.
-    pub fn at_speed(&self, speed: f64) -> [Complex<f64>; 2] {
-        self.at((speed.ln() - self.low) / self.length)
+    /// s at a speed, m/s.
+    pub fn at_speed(&self, speed: f64) -> Complex<f64> {
+        self.cubic.value((speed / self.low).ln() / self.length)
     }
 
-    /// ln V at a share `t` of the way.
-    pub fn place(&self, t: f64) -> f64 {
-        self.low + t * self.length
+    /// All of it at a share `t` of the way.
+    pub fn known(&self, t: f64) -> Known {
+        let [s, slope] = self.at(t);
+        let speed = self.low * (t * self.length).exp();
+        Known { speed, s, slope }
     }
 
     /// Share of the way at which a function of s and its slope, negative at the lower end, is no

@@ -65,9 +65,8 @@ struct Bracket {
     low_end: Known,
     /// Whether the ends have been looked at closely.
     exact: [bool; 2],
-    /// Where it is expected, and ln V there.
+    /// Where it is expected.
     guess: Known,
-    at: f64,
     /// How far to go beyond an end, in ln V.
     reach: f64,
     found: Option<Event>,
@@ -75,7 +74,6 @@ struct Bracket {
 
 impl Bracket {
     fn new(sought: Sought, lane: usize, low: Known, high: Known) -> Self {
-        let (guess, at) = expected(sought, &low, &high);
         Self {
             lane,
             sought,
@@ -83,8 +81,7 @@ impl Bracket {
             high,
             low_end: low,
             exact: [false; 2],
-            guess,
-            at,
+            guess: expected(sought, &low, &high),
             reach: REACH,
             found: None,
         }
@@ -102,17 +99,15 @@ impl Bracket {
             (self.low, -self.reach)
         };
         self.exact[usize::from(!is_below)] = true;
-        let (guess, next) = expected(self.sought, &self.low, &self.high);
-        if (next - self.at).abs() >= FOUND {
-            (self.guess, self.at) = (guess, next);
-        } else if !self.exact[usize::from(is_below)]
-            && (end.speed.ln() - self.at).abs() < 2.0 * FOUND
-        {
+        let apart = |speed: f64| (speed / known.speed).ln().abs();
+        let next = expected(self.sought, &self.low, &self.high);
+        if apart(next.speed) >= FOUND {
+            self.guess = next;
+        } else if !self.exact[usize::from(is_below)] && apart(end.speed) < 2.0 * FOUND {
             // The end was not quite right: it is beyond.
-            self.at += beyond;
             self.reach *= FURTHER;
             self.guess = Known {
-                speed: self.at.exp(),
+                speed: known.speed * beyond.exp(),
                 s: known.expected(beyond, None),
                 slope: known.slope,
             };
@@ -127,13 +122,10 @@ impl Bracket {
     }
 }
 
-/// What is sought between two speeds, and ln V there, on the cubic.
-fn expected(sought: Sought, low: &Known, high: &Known) -> (Known, f64) {
+/// What is sought between two speeds, on the cubic.
+fn expected(sought: Sought, low: &Known, high: &Known) -> Known {
     let between = Between::new(low, high);
-    let t = between.root(|known| sought.function(known));
-    let ([s, slope], at) = (between.at(t), between.place(t));
-    let speed = at.exp();
-    (Known { speed, s, slope }, at)
+    between.known(between.root(|at| sought.function(at)))
 }
 
 /// Adds to a search what it seeks between two neighbouring speeds. Onsets are those at which a mode
@@ -150,11 +142,10 @@ pub(super) fn find(
     };
     let mut brackets = Vec::new();
     let mut dips = Vec::new();
-    for l in before.living().filter(|&l| after.alive[l]) {
-        let (mut low, mut high) = (before.known(l), after.known(l));
-        if low.speed > high.speed {
-            std::mem::swap(&mut low, &mut high);
-        }
+    for l in 0..LANES {
+        let Some([low, high]) = State::from_to(before, after, l) else {
+            continue;
+        };
         let damped = [low, high].map(|known| known.s.re < 0.0);
         match (sought, damped) {
             (Sought::Onset, [true, false]) => {
@@ -253,7 +244,7 @@ fn minimum(low: &Known, high: &Known, below: f64) -> bool {
     if !(falls < 0.0 && rises >= 0.0 && lowest < below) {
         return false;
     }
-    let (known, _) = expected(Sought::Minimum, low, high);
+    let known = expected(Sought::Minimum, low, high);
     // The cubic may be off by as much as it is below its ends.
     let least = damping_ratio(known.s);
     least - (ends - least) < below

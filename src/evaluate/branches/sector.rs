@@ -75,15 +75,16 @@ fn walk(
     let fastest = stiffness.fastest(factors).ln();
     let low = sizes.clone().fold(fastest, f64::min);
     let high = sizes.fold(low, f64::max);
+    let top = fastest.max(high);
     let step = |at: f64| {
-        let widest = share
-            * if at < low - MARGIN.ln() || at > fastest.max(high) + MARGIN.ln() {
-                COARSE
-            } else if at > high + MARGIN.ln() {
-                MIDDLE
-            } else {
-                FINE
-            };
+        let widest = if at < low - MARGIN.ln() || at > top + MARGIN.ln() {
+            COARSE
+        } else if at > high + MARGIN.ln() {
+            MIDDLE
+        } else {
+            FINE
+        };
+        let widest = share * widest;
         if of_distance.is_infinite() {
             return widest;
         }
@@ -100,7 +101,7 @@ fn walk(
         last: None,
         sure: true,
     };
-    while at < fastest.max(high) + FAR.ln() && walk.sure {
+    while at < top + FAR.ln() && walk.sure {
         let mut radii = [0.0; LANES];
         for radius in &mut radii {
             *radius = at.exp();

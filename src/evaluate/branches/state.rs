@@ -79,9 +79,15 @@ impl State {
         self.pairs.known(l)
     }
 
-    /// All modes in their lanes.
-    pub fn all(&self) -> [Option<Known>; LANES] {
-        std::array::from_fn(|l| self.alive[l].then(|| self.known(l)))
+    /// A mode at the lower and the higher of two speeds, if it is followed at both.
+    pub fn from_to(before: &Self, after: &Self, l: usize) -> Option<[Known; 2]> {
+        let both = [before.known(l), after.known(l)];
+        let ascending = if both[0].speed > both[1].speed {
+            [both[1], both[0]]
+        } else {
+            both
+        };
+        (before.alive[l] && after.alive[l]).then_some(ascending)
     }
 
     pub fn speed(&self) -> f64 {

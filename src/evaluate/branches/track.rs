@@ -38,8 +38,8 @@ pub struct Branches<'m> {
     start: State,
     /// Room for the next state.
     spare: Option<State>,
-    /// The modes before and after each step in which something was found, in ascending speed.
-    steps: Vec<[[Option<Known>; LANES]; 2]>,
+    /// The modes at both ends of each step in which something was found.
+    steps: Vec<[Option<[Known; 2]>; LANES]>,
     /// Real eigenvalues that grow, none or one: then at every speed, as det K is negative.
     growing: usize,
 }
@@ -181,9 +181,8 @@ impl<'m> Branches<'m> {
                     continue;
                 }
                 if search.events.len() > events {
-                    let step = [now.all(), next.all()];
-                    let up = next.speed() > now.speed();
-                    self.steps.push(if up { step } else { [step[1], step[0]] });
+                    let modes = std::array::from_fn(|l| State::from_to(&now, &next, l));
+                    self.steps.push(modes);
                 }
                 self.spare = last.replace(std::mem::replace(&mut now, next));
             } else {
@@ -265,30 +264,29 @@ impl<'m> Branches<'m> {
 
     /// One mode and the others at a speed near which it was found.
     fn passed(&mut self, speed: f64, one: Complex<f64>) -> Vec<Complex<f64>> {
-        let within = |[low, high]: [Known; 2]| low.speed <= speed && speed <= high.speed;
-        let both = |[low, high]: &[[Option<Known>; LANES]; 2], l: usize| {
-            low[l].zip(high[l]).map(<[Known; 2]>::from)
-        };
-        let step = |step: &&[[Option<Known>; LANES]; 2]| {
-            (0..LANES).any(|l| both(step, l).is_some_and(within))
-        };
-        let Some(step) = self.steps.iter().find(step) else {
+        let within = |[low, high]: &[Known; 2]| low.speed <= speed && speed <= high.speed;
+        let step = self
+            .steps
+            .iter()
+            .find(|modes| modes.iter().flatten().any(within));
+        let modes = step.into_iter().flatten().enumerate();
+        let lanes: Vec<(usize, [Known; 2])> =
+            modes.filter_map(|(l, ends)| Some((l, (*ends)?))).collect();
+        let Some(&first) = lanes.first() else {
             return vec![one];
         };
-        let lanes: Vec<usize> = (0..LANES).filter(|&l| both(step, l).is_some()).collect();
         let mut pairs = self.start.pairs.clone();
         for l in 0..LANES {
-            let lane = if lanes.contains(&l) { l } else { lanes[0] };
+            let own = lanes.iter().copied().find(|(lane, _)| *lane == l);
+            let (lane, [low, high]) = own.unwrap_or(first);
             pairs.take(l, &self.start.pairs, lane);
-            if let Some([low, high]) = both(step, lane) {
-                let [s, _] = Between::new(&low, &high).at_speed(speed);
-                (pairs.s.re[l], pairs.s.im[l]) = (s.re, s.im);
-            }
+            let s = Between::new(&low, &high).at_speed(speed);
+            (pairs.s.re[l], pairs.s.im[l]) = (s.re, s.im);
         }
         pairs.speed = [speed; LANES];
         self.refiner.settle(&mut pairs, LANES, SETTLED);
         let mut modes = vec![one];
-        for s in lanes.into_iter().map(|l| pairs.s.lane(l)) {
+        for s in lanes.into_iter().map(|(l, _)| pairs.s.lane(l)) {
             let is_new = |known: &Complex<f64>| size(*known - s) > SAME * size(s);
             if s.is_finite() && s.im > 0.0 && modes.iter().all(is_new) {
                 modes.push(s);

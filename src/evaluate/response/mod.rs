@@ -17,13 +17,13 @@ use crate::{
     dynamics::{
         ForcedModel, ForcedTangent,
         elimination::{
-            Factors, LANES, Lanes, Reals, Stiffness,
+            ALL, Factors, LANES, Lanes, Reals, Stiffness,
             lanes::{mul, mul_add},
         },
     },
     track::Track,
 };
-use terms::{ALL, Coupling, Force, Moving, OutputTerms};
+use terms::{Coupling, Force, Moving, OutputTerms};
 
 /// A forced model at one speed, ready to be evaluated at many frequencies, [`LANES`] at a time,
 /// without allocation.

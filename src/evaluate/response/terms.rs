@@ -99,9 +99,6 @@ pub(super) struct OutputTerms {
     acceleration: Vec<(Source, f64)>,
 }
 
-/// All coordinates, as bits.
-pub(super) const ALL: u32 = u32::MAX;
-
 /// Coordinates on which forces act, as bits.
 pub(super) fn coordinates(forces: &[Force]) -> u32 {
     forces
