@@ -5,14 +5,14 @@ mod support;
 use bogie::{
     case::Case,
     design::tasks::Tasks,
-    dynamics::{LateralModel, Poles, VerticalModel, eigenvalues, elimination::LANES},
+    dynamics::{LateralModel, LinearSystem, Poles, VerticalModel, eigenvalues, elimination::LANES},
     evaluate::{
         critical_speed::Stability,
         damping_range::DampingRange,
         response::{Response, plain},
     },
     index::Index,
-    vehicle::AirSpring,
+    vehicle::{AirSpring, Suspension},
 };
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -182,16 +182,72 @@ fn eigenvalues_of_parts_are_those_of_the_whole() {
             });
         }
         let system = VerticalModel::new(&case).forced.system;
-        let mut whole = eigenvalues(system.state_matrix(case.service.speed)).unwrap();
-        let parts = Poles::at(&system, case.service.speed).unwrap().values;
-        assert_eq!(parts.len(), whole.len(), "{name}");
-        let largest = whole.iter().map(|s| s.norm()).fold(0.0, f64::max);
-        for s in parts {
-            let apart = |i: &usize| (whole[*i] - s).norm();
-            let nearest = (0..whole.len()).min_by(|i, j| apart(i).total_cmp(&apart(j)));
-            let other = whole.swap_remove(nearest.unwrap());
-            assert!((other - s).norm() < 1e-7 * largest, "{name}: {s}, {other}");
+        assert_whole(&name, &system, case.service.speed, [0.0, 1e-7]);
+    }
+}
+
+/// The lateral model's eigenvalues, refined from those of one truck and of the carbody, are those of
+/// the whole, at the speed of service, where many modes have become pairs of real ones, and where
+/// growing ones are near: each to 1e-8 of itself (2e-10 was the most in 5000 vehicles), but for what
+/// rounding leaves of the smallest in the whole.
+#[test]
+fn refined_eigenvalues_are_those_of_the_whole() {
+    for (name, case) in vehicles(31, 300) {
+        let system = LateralModel::new(&case).forced.system;
+        for speed in [case.service.speed, 1.0, 12.0, 150.0] {
+            assert_whole(&name, &system, speed, [1e-8, 1e-13]);
         }
+    }
+}
+
+/// Trucks that know nothing of each other, whose eigenvalues are the same; nothing that holds the
+/// carbody; no damping but the rails'; wheelsets nearly free: 1e-7 of the largest, as double roots are
+/// good to the square root of rounding.
+#[test]
+fn degenerate_vehicles_have_the_eigenvalues_of_the_whole() {
+    let changes: [fn(&mut Suspension); 5] = [
+        |suspension| {
+            suspension.secondary.lateral_stiffness = 0.0;
+            suspension.secondary.lateral_damping = 0.0;
+            suspension.secondary.yaw_stiffness = 0.0;
+        },
+        |suspension| suspension.secondary.yaw_stiffness *= 1e3,
+        |suspension| {
+            suspension.secondary.lateral_damping = 0.0;
+            suspension.secondary.vertical_damping = 0.0;
+        },
+        |suspension| suspension.primary.longitudinal_stiffness *= 1e-6,
+        |suspension| {
+            suspension.primary.longitudinal_stiffness = 0.0;
+            suspension.primary.lateral_stiffness = 0.0;
+        },
+    ];
+    for (i, change) in changes.into_iter().enumerate() {
+        let mut case = Case::prototype();
+        change(&mut case.vehicle.suspension);
+        let system = LateralModel::new(&case).forced.system;
+        for speed in [3.0, 20.0, 49.0, 110.0] {
+            assert_whole(&format!("change {i}"), &system, speed, [0.0, 1e-7]);
+        }
+    }
+}
+
+/// Asserts that eigenvalues are those of the whole system's matrix, within shares of themselves and of
+/// the largest.
+fn assert_whole(name: &str, system: &LinearSystem, speed: f64, [own, of_largest]: [f64; 2]) {
+    let mut whole = eigenvalues(system.state_matrix(speed)).unwrap();
+    let values = Poles::at(system, speed).unwrap().values;
+    assert_eq!(values.len(), whole.len(), "{name}");
+    let largest = whole.iter().map(|s| s.norm()).fold(0.0, f64::max);
+    for s in values {
+        let apart = |i: &usize| (whole[*i] - s).norm();
+        let nearest = (0..whole.len()).min_by(|i, j| apart(i).total_cmp(&apart(j)));
+        let other = whole.swap_remove(nearest.unwrap());
+        let allowed = own * other.norm() + of_largest * largest;
+        assert!(
+            (other - s).norm() < allowed,
+            "{name}, {speed}: {s}, {other}"
+        );
     }
 }
 

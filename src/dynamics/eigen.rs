@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, SMatrix, linalg::Schur};
 
-use super::{LinearSystem, balance::balance, parts};
+use super::{LinearSystem, balance::balance, parts, simultaneous};
 
 /// Why no eigenvalues came out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -31,6 +31,9 @@ impl Poles {
     ///
     /// As [`eigenvalues`].
     pub fn at(system: &LinearSystem, speed: f64) -> Result<Self, EigenError> {
+        if let Some(values) = from_estimates(system, speed) {
+            return Ok(Self { speed, values });
+        }
         let mut values = Vec::with_capacity(2 * system.order());
         for matrix in parts::state_matrices(system, speed) {
             values.extend(eigenvalues(matrix)?);
@@ -47,6 +50,20 @@ impl Poles {
     pub fn stable(&self) -> bool {
         self.values.iter().all(|s| s.re < 0.0)
     }
+}
+
+/// How far apart the eigenvalues of two parts that are alike are put at first, relative.
+const SPLIT: f64 = 1e-6;
+
+/// Eigenvalues refined from those of the parts of a system that has two that are alike. `None` if it
+/// has not, or they do not come out for sure.
+fn from_estimates(system: &LinearSystem, speed: f64) -> Option<Vec<Complex<f64>>> {
+    let [one, rest] = parts::held_apart(system, speed)?.map(eigenvalues);
+    let mut estimates = rest.ok()?;
+    for s in one.ok()? {
+        estimates.extend([s * (1.0 + SPLIT), s * (1.0 - SPLIT)]);
+    }
+    simultaneous::refined(system, speed, &estimates)
 }
 
 /// Sweeps allowed per eigenvalue: under 3 is normal; about one vehicle in 3000 never converges and
@@ -86,6 +103,8 @@ pub fn eigenvalues(mut a: DMatrix<f64>) -> Result<Vec<Complex<f64>>, EigenError>
     let values = match a.nrows() {
         4 => schur_values!(SMatrix::<f64, 4, 4>::from_column_slice(a.as_slice())),
         6 => schur_values!(SMatrix::<f64, 6, 6>::from_column_slice(a.as_slice())),
+        12 => schur_values!(SMatrix::<f64, 12, 12>::from_column_slice(a.as_slice())),
+        14 => schur_values!(SMatrix::<f64, 14, 14>::from_column_slice(a.as_slice())),
         30 => schur_values!(SMatrix::<f64, 30, 30>::from_column_slice(a.as_slice())),
         34 => schur_values!(SMatrix::<f64, 34, 34>::from_column_slice(a.as_slice())),
         _ => schur_values!(a.clone()),

@@ -21,6 +21,8 @@ pub struct LinearSystem {
     pub damping: [DMatrix<f64>; 3],
     /// Coordinates that are each other's mirror images, of one plane of symmetry after another.
     pub mirrored: Vec<[usize; 2]>,
+    /// Coordinates that are each other's counterparts in two parts that are alike.
+    pub alike: Vec<[usize; 2]>,
 }
 
 /// How a damping constant depends on the speed V.
@@ -44,6 +46,7 @@ impl LinearSystem {
             stiffness: zero.clone(),
             damping: [zero.clone(), zero.clone(), zero],
             mirrored: Vec::new(),
+            alike: Vec::new(),
         }
     }
 

@@ -10,6 +10,7 @@ pub mod lateral;
 mod linear_system;
 mod parts;
 mod row;
+mod simultaneous;
 mod tangent;
 pub mod vertical;
 

@@ -1,9 +1,9 @@
-//! A symmetric system in parts that know nothing of one another.
+//! A system in parts: their eigenvalues cost a fraction of those of the whole, as the cube of their size.
 //!
 //! Sums and differences of coordinates that mirror each other are moved by different forces: the
-//! vertical model falls apart into bounce, pitch, roll and torsion. Eigenvalues of the parts cost a
-//! fraction of those of the whole, as the cube of their size. (The lateral model's trucks are alike but
-//! do not mirror each other: all go the same way.)
+//! vertical model falls apart into bounce, pitch, roll and torsion. The lateral model's trucks are alike
+//! but do not mirror each other, as all go the same way: there the parts are one truck and the carbody,
+//! each with the other held, and their eigenvalues are estimates.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -52,15 +52,38 @@ pub(super) fn state_matrices(system: &LinearSystem, v: f64) -> Vec<DMatrix<f64>>
             part.extend(rest.extract_if(.., |j| tied(j)));
             next += 1;
         }
-        let of = |matrix: &DMatrix<f64>| {
-            DMatrix::from_fn(part.len(), part.len(), |i, j| matrix[(part[i], part[j])])
-        };
-        let mut alone = LinearSystem::new(part.iter().map(|&i| system.mass[i]).collect(), 0);
-        alone.stiffness = of(&k);
-        alone.damping[0] = of(&c);
-        matrices.push(alone.state_matrix(v));
+        matrices.push(alone(system, [&k, &c], &part, v));
     }
     matrices
+}
+
+/// Matrices of the first-order form, at speed `v`, m/s, of one of the two parts of a system that are
+/// alike, and of the coordinates that belong to neither, each with all others held. `None` if none are
+/// alike.
+pub(super) fn held_apart(system: &LinearSystem, v: f64) -> Option<[DMatrix<f64>; 2]> {
+    let one: Vec<usize> = system.alike.iter().map(|pair| pair[0]).collect();
+    let of_neither = |i: &usize| !system.alike.iter().flatten().any(|other| other == i);
+    let rest: Vec<usize> = (0..system.order()).filter(of_neither).collect();
+    let c = system.damping_at(v);
+    let matrices = [&one, &rest].map(|part| alone(system, [&system.stiffness, &c], part, v));
+    (!one.is_empty()).then_some(matrices)
+}
+
+/// Matrix of the first-order form of some coordinates alone, of a system with stiffness `k` and damping
+/// `c`.
+fn alone(
+    system: &LinearSystem,
+    [k, c]: [&DMatrix<f64>; 2],
+    part: &[usize],
+    v: f64,
+) -> DMatrix<f64> {
+    let of = |matrix: &DMatrix<f64>| {
+        DMatrix::from_fn(part.len(), part.len(), |i, j| matrix[(part[i], part[j])])
+    };
+    let mut alone = LinearSystem::new(part.iter().map(|&i| system.mass[i]).collect(), 0);
+    alone.stiffness = of(k);
+    alone.damping[0] = of(c);
+    alone.state_matrix(v)
 }
 
 /// Puts the sum and the difference of two coordinates in their places, both over √2.

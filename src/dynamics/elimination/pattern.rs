@@ -141,6 +141,13 @@ impl Pattern {
         self.slots[i * self.order + j].map(usize::from)
     }
 
+    /// Slots and coordinates of the pivots.
+    pub fn pivots(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.pivots
+            .iter()
+            .map(|pivot| (pivot.slot, pivot.coordinate))
+    }
+
     /// Factors L U in place, the inverse pivots on the diagonal. `diagonal` gets the squares of the
     /// diagonal before. Returns false in lanes where a pivot has lost digits against it.
     #[inline(always)]

@@ -197,6 +197,16 @@ impl Stiffness {
         self.pattern.determinant(simd, &factors.a)
     }
 
+    /// Inverse pivots of the factors, each with its coordinate.
+    pub fn inverse_pivots<'f>(
+        &'f self,
+        factors: &'f Factors,
+    ) -> impl Iterator<Item = (&'f Lanes, usize)> {
+        self.pattern
+            .pivots()
+            .map(|(slot, coordinate)| (&factors.a[slot], coordinate))
+    }
+
     /// D′ x and D′ᵀ y at the speeds set, with D′ = ∂D/∂s = 2 s M + C(V).
     #[inline(always)]
     pub fn derivative_times<S: Simd>(

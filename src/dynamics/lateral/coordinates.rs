@@ -91,6 +91,20 @@ impl Coordinates {
         }
     }
 
+    /// Coordinates of the leading truck and its wheelsets with those of the trailing one.
+    pub(super) fn trucks(self) -> Vec<[usize; 2]> {
+        let counterpart = |index: usize| match self.coordinate(index) {
+            Coordinate::WheelsetLateral(0 | 1) | Coordinate::WheelsetYaw(0 | 1) => Some(index + 2),
+            Coordinate::TruckLateral(0) | Coordinate::TruckYaw(0) | Coordinate::TruckRoll(0) => {
+                Some(index + 1)
+            }
+            _ => None,
+        };
+        (0..self.len())
+            .filter_map(|index| Some([index, counterpart(index)?]))
+            .collect()
+    }
+
     /// Diagonal of M, kg and kg m².
     pub(in crate::dynamics) fn masses(self, vehicle: &Vehicle) -> Vec<f64> {
         let (w, t, c) = (&vehicle.wheelset, &vehicle.truck, &vehicle.carbody);

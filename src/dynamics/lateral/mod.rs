@@ -87,6 +87,7 @@ impl LateralModel {
             builder.add_carried_weight(&mut system);
         }
         let q = builder.q;
+        system.alike = q.trucks();
         let roll = 1.0 / (2.0 * case.vehicle.wheelset.half_contact_distance);
         let excitation = |irregularity, first: fn(Coordinates, usize) -> usize, scale| Excitation {
             irregularity,
