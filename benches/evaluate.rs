@@ -39,8 +39,8 @@ fn compared_indices(bencher: Bencher) {
         let lateral = LateralModel::new(case);
         let vertical = VerticalModel::new(case);
         let speed = case.service.speed;
-        let lateral_poles = Poles::at(&lateral.forced.system, speed)?;
-        let vertical_poles = Poles::at(&vertical.forced.system, speed)?;
+        let lateral_poles = Poles::at(&lateral.forced, speed)?;
+        let vertical_poles = Poles::at(&vertical.forced, speed)?;
         Stability::new(&lateral, &lateral_poles, case.model.speed_range, 1.0).map(|stability| {
             (
                 stability,
@@ -67,13 +67,13 @@ fn vertical_model(bencher: Bencher) {
 #[divan::bench]
 fn lateral_poles(bencher: Bencher) {
     let model = LateralModel::new(&Case::prototype());
-    bencher.bench_local(|| Poles::at(&model.forced.system, black_box(50.0)));
+    bencher.bench_local(|| Poles::at(&model.forced, black_box(50.0)));
 }
 
 #[divan::bench]
 fn vertical_poles(bencher: Bencher) {
     let model = VerticalModel::new(&Case::prototype());
-    bencher.bench_local(|| Poles::at(&model.forced.system, black_box(50.0)));
+    bencher.bench_local(|| Poles::at(&model.forced, black_box(50.0)));
 }
 
 /// By following the modes, as the program does it; model and poles included.

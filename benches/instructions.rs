@@ -37,14 +37,14 @@ mod counted {
     fn lateral() -> (Case, LateralModel, Poles) {
         let case = Case::prototype();
         let model = LateralModel::new(&case);
-        let poles = Poles::at(&model.forced.system, case.service.speed);
+        let poles = Poles::at(&model.forced, case.service.speed);
         (case, model, poles.expect("the prototype has eigenvalues"))
     }
 
     fn vertical() -> (Case, VerticalModel, Poles) {
         let case = Case::prototype();
         let model = VerticalModel::new(&case);
-        let poles = Poles::at(&model.forced.system, case.service.speed);
+        let poles = Poles::at(&model.forced, case.service.speed);
         (case, model, poles.expect("the prototype has eigenvalues"))
     }
 
@@ -58,7 +58,7 @@ mod counted {
     #[library_benchmark]
     #[bench::prototype(lateral())]
     fn poles((_, model, _): (Case, LateralModel, Poles)) -> Result<Poles, EigenError> {
-        Poles::at(&model.forced.system, black_box(50.0))
+        Poles::at(&model.forced, black_box(50.0))
     }
 
     #[library_benchmark]

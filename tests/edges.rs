@@ -147,7 +147,7 @@ fn stable_at_every_speed() {
         evaluation.stability.range[1],
     ] {
         assert!(
-            Poles::at(&model.forced.system, speed).unwrap().stable(),
+            Poles::at(&model.forced, speed).unwrap().stable(),
             "{speed} m/s"
         );
     }
@@ -234,7 +234,7 @@ fn modes_in_pairs() {
     case.vehicle.carbody.height_above_secondary = 0.0;
     let model = LateralModel::new(&case);
     let speed = 100.0 * MPH;
-    let mut values: Vec<_> = Poles::at(&model.forced.system, speed)
+    let mut values: Vec<_> = Poles::at(&model.forced, speed)
         .unwrap()
         .oscillatory()
         .filter(|s| s.norm() > 5.0)

@@ -5,7 +5,7 @@ mod support;
 use bogie::{
     case::Case,
     design::tasks::Tasks,
-    dynamics::{LateralModel, LinearSystem, Poles, VerticalModel, eigenvalues, elimination::LANES},
+    dynamics::{ForcedModel, LateralModel, Poles, VerticalModel, eigenvalues, elimination::LANES},
     evaluate::{
         critical_speed::Stability,
         damping_range::DampingRange,
@@ -33,7 +33,7 @@ fn vehicles(seed: u64, count: usize) -> Vec<(String, Case)> {
 
 /// Poles at the speed of operation.
 fn poles(model: &LateralModel, case: &Case) -> Poles {
-    Poles::at(&model.forced.system, case.service.speed).unwrap()
+    Poles::at(&model.forced, case.service.speed).unwrap()
 }
 
 /// Where the modes can be followed, the critical speed is that of full spectra. Where they cannot,
@@ -99,7 +99,7 @@ fn the_critical_speed_does_not_depend_on_where_the_search_starts() {
     for (name, case) in vehicles(22, 60) {
         let (model, range) = (LateralModel::new(&case), case.model.speed_range);
         let from = |speed: f64| {
-            let poles = Poles::at(&model.forced.system, speed).unwrap();
+            let poles = Poles::at(&model.forced, speed).unwrap();
             Stability::new(&model, &poles, range, 1.0).unwrap()
         };
         let expected = from(case.service.speed).critical_speed();
@@ -160,7 +160,7 @@ fn twins_are_told_apart_where_they_lose_their_damping() {
         let fast = Stability::new(&model, &poles, case.model.speed_range, 1.0).unwrap();
         let critical = fast.critical_speed().unwrap();
         for (share, stable) in [(1.0 - 1e-6, true), (1.0 + 1e-6, false)] {
-            let poles = Poles::at(&model.forced.system, critical * share).unwrap();
+            let poles = Poles::at(&model.forced, critical * share).unwrap();
             assert_eq!(poles.stable(), stable, "profile {profile}, {share}");
         }
     }
@@ -181,8 +181,8 @@ fn eigenvalues_of_parts_are_those_of_the_whole() {
                 orifice_damping: secondary.vertical_damping,
             });
         }
-        let system = VerticalModel::new(&case).forced.system;
-        assert_whole(&name, &system, case.service.speed, [0.0, 1e-7]);
+        let model = VerticalModel::new(&case).forced;
+        assert_whole(&name, &model, case.service.speed, [0.0, 1e-7]);
     }
 }
 
@@ -193,9 +193,9 @@ fn eigenvalues_of_parts_are_those_of_the_whole() {
 #[test]
 fn refined_eigenvalues_are_those_of_the_whole() {
     for (name, case) in vehicles(31, 300) {
-        let system = LateralModel::new(&case).forced.system;
+        let model = LateralModel::new(&case).forced;
         for speed in [case.service.speed, 1.0, 12.0, 150.0] {
-            assert_whole(&name, &system, speed, [1e-8, 1e-13]);
+            assert_whole(&name, &model, speed, [1e-8, 1e-13]);
         }
     }
 }
@@ -225,18 +225,18 @@ fn degenerate_vehicles_have_the_eigenvalues_of_the_whole() {
     for (i, change) in changes.into_iter().enumerate() {
         let mut case = Case::prototype();
         change(&mut case.vehicle.suspension);
-        let system = LateralModel::new(&case).forced.system;
+        let model = LateralModel::new(&case).forced;
         for speed in [3.0, 20.0, 49.0, 110.0] {
-            assert_whole(&format!("change {i}"), &system, speed, [0.0, 1e-7]);
+            assert_whole(&format!("change {i}"), &model, speed, [0.0, 1e-7]);
         }
     }
 }
 
 /// Asserts that eigenvalues are those of the whole system's matrix, within shares of themselves and of
 /// the largest.
-fn assert_whole(name: &str, system: &LinearSystem, speed: f64, [own, of_largest]: [f64; 2]) {
-    let mut whole = eigenvalues(system.state_matrix(speed)).unwrap();
-    let values = Poles::at(system, speed).unwrap().values;
+fn assert_whole(name: &str, model: &ForcedModel, speed: f64, [own, of_largest]: [f64; 2]) {
+    let mut whole = eigenvalues(model.system.state_matrix(speed)).unwrap();
+    let values = Poles::at(model, speed).unwrap().values;
     assert_eq!(values.len(), whole.len(), "{name}");
     let largest = whole.iter().map(|s| s.norm()).fold(0.0, f64::max);
     for s in values {

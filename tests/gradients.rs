@@ -129,7 +129,7 @@ fn rides() {
     for case in vehicles(2, 40, 2.0) {
         let (lateral, vertical) = (LateralModel::new(&case), VerticalModel::new(&case));
         let constants = Constants::new(&case, &Parameter::TEN);
-        let poles = |system| Poles::at(system, case.service.speed).unwrap();
+        let poles = |model| Poles::at(model, case.service.speed).unwrap();
         let all = |ride: &LateralRide| {
             let mut all = ride.acceleration.to_vec();
             all.push(ride.roll_acceleration);
@@ -140,12 +140,9 @@ fn rides() {
             all
         };
         let tangents = constants.lateral(&lateral);
-        if let Ok((ride, exact)) = LateralRide::with_derivatives(
-            &lateral,
-            &case,
-            &poles(&lateral.forced.system),
-            &tangents,
-        ) {
+        if let Ok((ride, exact)) =
+            LateralRide::with_derivatives(&lateral, &case, &poles(&lateral.forced), &tangents)
+        {
             assert_eq!(Ok(ride), LateralRide::new(&lateral, &case));
             let exact: Vec<Vec<f64>> = exact.iter().map(all).collect();
             compare("lateral", &case, &exact, 1e-4, |case| {
@@ -162,13 +159,9 @@ fn rides() {
             all
         };
         let tangents = constants.vertical(&vertical);
-        let (_, exact) = VerticalRide::with_derivatives(
-            &vertical,
-            &case,
-            &poles(&vertical.forced.system),
-            &tangents,
-        )
-        .unwrap();
+        let (_, exact) =
+            VerticalRide::with_derivatives(&vertical, &case, &poles(&vertical.forced), &tangents)
+                .unwrap();
         let exact: Vec<Vec<f64>> = exact.iter().map(all).collect();
         compare("vertical", &case, &exact, 1e-4, |case| {
             all(&VerticalRide::new(&VerticalModel::new(case), case).unwrap())

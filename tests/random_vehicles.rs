@@ -98,12 +98,12 @@ fn refinement_changes_nothing() {
         let case = random(&mut rng, 2.0);
         let lateral = LateralModel::new(&case);
         let speed = case.service.speed;
-        if !Poles::at(&lateral.forced.system, speed).unwrap().stable() {
+        if !Poles::at(&lateral.forced, speed).unwrap().stable() {
             continue;
         }
         for model in [lateral.forced, VerticalModel::new(&case).forced] {
             let outputs = model.outputs.len();
-            let edges = panels(&model, &case, &Poles::at(&model.system, speed).unwrap());
+            let edges = panels(&model, &case, &Poles::at(&model, speed).unwrap());
             let [coarse, fine] = [1e-6, 1e-12].map(|tolerance| {
                 let mut response = Response::new(&model, &case.service.track, speed);
                 integrate(&edges, [outputs; 2], tolerance, |f, v| {
@@ -209,7 +209,7 @@ fn agrees_with_the_scan(what: &str, case: &Case, speed: f64) {
     let (most, fewest) = (least + 1e-9, least - rise[0].max(rise[1]) - 1e-9);
     let mut found = vec![DampingRange::search(&model, [low, speed], f64::INFINITY).unwrap()];
     if least < 0.05 {
-        let poles = Poles::at(&model.forced.system, case.service.speed).unwrap();
+        let poles = Poles::at(&model.forced, case.service.speed).unwrap();
         found.push(DampingRange::new(&model, &poles, [low, speed], 0.05).unwrap());
     }
     for found in found {

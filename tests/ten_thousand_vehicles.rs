@@ -449,7 +449,7 @@ fn refinement_changes_nothing() {
             LateralModel::new(&case).forced,
             VerticalModel::new(&case).forced,
         ] {
-            let poles = Poles::at(&model.system, speed).unwrap();
+            let poles = Poles::at(&model, speed).unwrap();
             if !poles.stable() {
                 continue;
             }

@@ -72,7 +72,7 @@ impl Table {
 fn main() {
     let case = Case::prototype();
     let (lateral, vertical) = (LateralModel::new(&case), VerticalModel::new(&case));
-    let at = |model: &ForcedModel| Poles::at(&model.system, case.service.speed);
+    let at = |model: &ForcedModel| Poles::at(model, case.service.speed);
     let (Ok(lateral_poles), Ok(vertical_poles)) = (at(&lateral.forced), at(&vertical.forced))
     else {
         println!("the prototype has no eigenvalues");
@@ -109,7 +109,7 @@ fn main() {
 
     let system = &lateral.forced.system;
     let elimination = Elimination::of(system);
-    let mut refiner = Refiner::new(system);
+    let mut refiner = Refiner::new(&lateral.forced.stiffness);
     let s = lateral_poles.values[0] * 1.001;
     let mut pairs = Pairs::near(
         Lanes::from_fn(|_| s),

@@ -43,17 +43,16 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
     let progress = Line::new();
     let header = header("optimize", digest);
     let archive = archive(&progress, &call.search, call.run.out.as_deref(), &header)?;
-    let designed = procedure::design(spec, &archive);
-    let matters = designed.as_ref().ok().map(|result| {
+    let designed = procedure::design_beside(spec, &archive, |case| {
         let watch = Watch {
             interrupt: Some(interrupt::flag()),
             progress: &progress,
         };
-        sensitivity::screen(&result.case, &indices_of(spec), spec.design.seed, &watch)
+        sensitivity::screen(case, &indices_of(spec), spec.design.seed, &watch)
     });
     progress.finish();
     tell(&archive);
-    let result = designed.map_err(|error| match error {
+    let (result, matters) = designed.map_err(|error| match error {
         DesignError::NothingOpen | DesignError::NoRequirement => Failure::Invalid(format!(
             "error: {}: {error}",
             call.run.source.spec.display()
@@ -68,10 +67,10 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
     deliver(
         &call.run,
         "optimize",
-        || design_text::design(name, &result, &spec.demands, matters.as_ref(), &warnings),
+        || design_text::design(name, &result, &spec.demands, Some(&matters), &warnings),
         || {
             let all = together(doubts, &warnings);
-            design_json::design(name, &result, spec, digest, matters.as_ref(), &all)
+            design_json::design(name, &result, spec, digest, Some(&matters), &all)
         },
     )?;
     if let Some(page) = &call.report {
@@ -81,7 +80,7 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
         if whole {
             tell(&archive);
         }
-        let (matters, front) = (matters.as_ref(), front.as_ref());
+        let (matters, front) = (Some(&matters), front.as_ref());
         report::optimized(&named, &result, matters, front, call, page)?;
     }
     Ok(if result.met() {

@@ -16,6 +16,7 @@ pub mod procedure;
 pub mod search;
 pub mod sensitivity;
 pub mod sequence;
+mod stage;
 pub mod study;
 pub mod sweep;
 pub mod tasks;

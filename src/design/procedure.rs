@@ -9,23 +9,22 @@ use std::time::Instant;
 
 use super::{
     conflict::conflict,
-    explain::Explained,
     margin::{margins, worst_value},
-    outcome::{Compared, DesignResult, Joint, Profile, StageResult, half_kalker, in_conditions},
-    search::{Searched, search},
-    study::{Role, Study},
-    tasks::{Task, Tasks},
+    outcome::{Compared, DesignResult, Joint, StageResult, half_kalker, in_conditions},
+    stage::{self, Brief, Candidate, Stage},
+    study::Role,
+    tasks::Tasks,
 };
 use crate::{
     case::Case,
     dynamics::EigenError,
-    evaluate::{Evaluation, critical_speed::Stability, curving::CurvingLimits},
+    evaluate::Evaluation,
     index::Index,
     optimize::{
         archive::Archive,
         local::Status,
         problem::{Problem, Values},
-        solve::{Effort, NoDesign, Solved, Start},
+        solve::{Effort, NoDesign},
     },
     parameter::TradeOff,
     spec::{Order, Spec},
@@ -35,8 +34,6 @@ use crate::{
 const ROUNDS: usize = 10;
 /// Change of every scaled variable below which a round changed nothing.
 const UNCHANGED: f64 = 1e-4;
-/// Objective behind the best down to which a profile may still win in a later round: 5 %.
-const RACE: f64 = 0.05;
 
 /// Why there is no design.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -84,6 +81,20 @@ impl DesignError {
 /// [`DesignError`] where there is nothing to choose or nothing to choose by. Requirements that
 /// cannot be met are no error: the result holds the best compromise and says what is not met.
 pub fn design(spec: &Spec, archive: &Archive) -> Result<DesignResult, DesignError> {
+    design_beside(spec, archive, |_| ()).map(|(result, ())| result)
+}
+
+/// As [`design`], with what `beside` makes of the chosen design: where all at once is searched only to
+/// compare, meanwhile.
+///
+/// # Errors
+///
+/// As [`design`].
+pub fn design_beside<T: Send>(
+    spec: &Spec,
+    archive: &Archive,
+    beside: impl FnOnce(&Case) -> T + Send,
+) -> Result<(DesignResult, T), DesignError> {
     let tasks = Tasks::new(spec);
     let all = [
         TradeOff::Vertical,
@@ -107,7 +118,7 @@ pub fn design(spec: &Spec, archive: &Archive) -> Result<DesignResult, DesignErro
         tasks,
         archive,
     };
-    let mut result = procedure.run(&open)?;
+    let (mut result, made) = procedure.run(&open, beside)?;
     result.effort = Effort {
         evaluations: archive.count(),
         failures: archive.failures(),
@@ -115,7 +126,7 @@ pub fn design(spec: &Spec, archive: &Archive) -> Result<DesignResult, DesignErro
         ..Effort::default()
     };
     result.stopped = archive.stopped();
-    Ok(result)
+    Ok((result, made))
 }
 
 struct Procedure<'a> {
@@ -124,55 +135,48 @@ struct Procedure<'a> {
     archive: &'a Archive<'a>,
 }
 
-/// A design found for one profile.
-struct Candidate {
-    study: Study,
-    solved: Solved,
-    conicity: f64,
-}
-
-/// A stage's result with its design, and how far it moved from where it began.
-struct Stage {
-    result: StageResult,
-    case: Case,
-    moved: f64,
-    best: Candidate,
-}
-
 impl Procedure<'_> {
-    fn run(&self, open: &[TradeOff]) -> Result<DesignResult, DesignError> {
+    fn run<T: Send>(
+        &self,
+        open: &[TradeOff],
+        beside: impl FnOnce(&Case) -> T + Send,
+    ) -> Result<(DesignResult, T), DesignError> {
         let joint_only = self.spec.design.order == Order::Joint
             || !self.spec.objective.is_empty()
             || self.tasks.entangled();
         if joint_only {
             let task = |case: &Case| self.tasks.joint(case);
-            let stage = self.stage(&self.spec.case, None, &task, None, &[])?;
-            return self.finish(stage.case, vec![stage.result], 0, true, &stage.best, None);
+            let stage = self.stage(&Brief {
+                now: &self.spec.case,
+                trade_off: None,
+                task: &task,
+                known: None,
+                also: &[],
+                seed: self.spec.design.seed,
+            })?;
+            let made = beside(&stage.case);
+            let result = self.finish(stage.case, vec![stage.result], 0, true, &stage.best, None)?;
+            return Ok((result, made));
         }
         let (stages, rounds, settled) = self.sequential(open)?;
         let last = stages.last().expect("something is open");
         let case = last.case.clone();
-        let joint = if open.len() > 1 && self.archive.stopped().is_none() {
-            match self.joint(&case) {
-                Ok(joint) => Some(joint),
-                Err(error) if error.is_stop() => None,
-                Err(error) => return Err(error),
-            }
-        } else {
-            None
+        let compare = open.len() > 1 && self.archive.stopped().is_none();
+        let all_at_once = || compare.then(|| self.joint(&case)).transpose();
+        let (joint, made) = rayon::join(all_at_once, || beside(&case));
+        let joint = match joint {
+            Err(error) if error.is_stop() => None,
+            other => other?,
         };
         // The conflict, if there is one, is that of the stage that fell short.
         let short = stages
             .iter()
             .find(|s| s.best.solved.status == Status::Infeasible)
             .unwrap_or(last);
-        let best = Candidate {
-            study: short.best.study.clone(),
-            solved: short.best.solved.clone(),
-            conicity: short.best.conicity,
-        };
+        let best = short.best.clone();
         let results = stages.into_iter().map(|s| s.result).collect();
-        self.finish(case, results, rounds, settled, &best, joint)
+        let result = self.finish(case, results, rounds, settled, &best, joint)?;
+        Ok((result, made))
     }
 
     /// The report's order: the stages with their last results, and the rounds taken.
@@ -238,20 +242,28 @@ impl Procedure<'_> {
         self.archive
             .stage(&format!("{trade_off}, round {}", round + 1));
         let task = |case: &Case| self.tasks.trade_off(case, trade_off);
-        self.stage(now, Some(trade_off), &task, known, &[])
+        self.stage(&Brief {
+            now,
+            trade_off: Some(trade_off),
+            task: &task,
+            known,
+            also: &[],
+            seed: self.spec.design.seed,
+        })
     }
 
     /// All at once, from the sequential design and from everywhere.
     fn joint(&self, sequential: &Case) -> Result<Joint, DesignError> {
         self.archive.stage("all at once");
         let task = |case: &Case| self.tasks.joint(case);
-        let stage = self.stage(
-            sequential,
-            None,
-            &task,
-            None,
-            std::slice::from_ref(sequential),
-        )?;
+        let stage = self.stage(&Brief {
+            now: sequential,
+            trade_off: None,
+            task: &task,
+            known: None,
+            also: std::slice::from_ref(sequential),
+            seed: self.spec.design.seed,
+        })?;
         let study = &stage.best.study;
         // In the terms of the task, whether or not the solution is lifted.
         let plain = &task(&stage.case).study;
@@ -281,110 +293,8 @@ impl Procedure<'_> {
         })
     }
 
-    /// Solves a task for every profile to choose from, or only those still in the race.
-    fn stage(
-        &self,
-        now: &Case,
-        trade_off: Option<TradeOff>,
-        task: &dyn Fn(&Case) -> Task,
-        known: Option<&StageResult>,
-        also: &[Case],
-    ) -> Result<Stage, DesignError> {
-        let fail = |reason| DesignError::NothingEvaluated { trade_off, reason };
-        let chooses = matches!(trade_off, None | Some(TradeOff::StabilityCurving));
-        let choices = match (chooses, known) {
-            (false, _) => vec![now.wheel_rail.conicity],
-            (true, None) => self.tasks.profiles(now),
-            (true, Some(known)) => in_the_race(known, self.tasks.profiles(now)),
-        };
-        let mut best: Option<Candidate> = None;
-        let mut profiles = Vec::new();
-        let mut effort = Effort::default();
-        let mut given_up = Vec::new();
-        let mut failure = None;
-        for conicity in choices {
-            let mut case = now.clone();
-            case.wheel_rail.conicity = conicity;
-            let Task { study, .. } = task(&case);
-            let current = study.coordinates(now);
-            // All at once only the profiles that may win matter; in turn the table shows each.
-            let mut start = match known {
-                None => Start::everywhere(self.spec.design.seed).with(vec![current.clone()]),
-                Some(known) => {
-                    let own = known.profiles.iter().find(|p| same(p.conicity, conicity));
-                    Start::near(vec![own.map_or(current.clone(), |p| p.x.clone())])
-                }
-            };
-            start = start.with(also.iter().map(|case| study.coordinates(case)).collect());
-            start.gives_up = trade_off.is_none();
-            if let Some(best) = &best
-                && best.solved.point.feasible()
-                && let Ok(values) = &best.solved.point.values
-            {
-                start.beat = values.objective();
-            }
-            match search(&study, &start, self.archive) {
-                Ok(Searched { study, solved }) => {
-                    // A profile that was given up has no optimum to show.
-                    if trade_off.is_some() || solved.status != Status::Stalled {
-                        profiles.push(profile(&study, &solved));
-                    } else {
-                        given_up.push(conicity);
-                    }
-                    effort.add(&solved.effort);
-                    let better = best
-                        .as_ref()
-                        .is_none_or(|b| solved.point.better_than(&b.solved.point));
-                    if better {
-                        best = Some(Candidate {
-                            study,
-                            solved,
-                            conicity,
-                        });
-                    }
-                }
-                Err(reason) => failure = Some(reason),
-            }
-            if self.archive.stopped().is_some() {
-                break;
-            }
-        }
-        let Some(best) = best else {
-            return Err(fail(failure.unwrap_or(NoDesign::Failed(
-                crate::optimize::problem::Failure::NotFinite,
-            ))));
-        };
-        let case = best.study.design(&best.solved.point.x);
-        let before: Vec<f64> = best.study.coordinates(now);
-        let moved = best
-            .solved
-            .point
-            .x
-            .iter()
-            .zip(&before)
-            .map(|(a, b)| (a - b).abs())
-            .fold(0.0, f64::max);
-        let moved = if same(best.conicity, now.wheel_rail.conicity) {
-            moved
-        } else {
-            1.0
-        };
-        let goal = task(now).goal;
-        let mut explained = Explained::new(&best.study, &best.solved, goal);
-        explained.effort.evaluations = effort.evaluations;
-        explained.effort.failures = effort.failures;
-        profiles.sort_by(|a, b| a.conicity.total_cmp(&b.conicity));
-        Ok(Stage {
-            result: StageResult {
-                trade_off,
-                explained,
-                profiles,
-                given_up,
-            },
-            case,
-            moved,
-            best,
-        })
+    fn stage(&self, brief: &Brief) -> Result<Stage, DesignError> {
+        stage::solve(brief, &self.tasks, self.archive)
     }
 
     fn finish(
@@ -440,70 +350,5 @@ impl Procedure<'_> {
             effort: Effort::default(),
             stopped: None,
         })
-    }
-}
-
-fn same(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 0.0
-}
-
-/// What the profile of a solved study allows.
-fn profile(study: &Study, solved: &Solved) -> Profile {
-    let case = study.design(&solved.point.x);
-    let stability = Stability::of(&case);
-    Profile {
-        conicity: case.wheel_rail.conicity,
-        status: solved.status,
-        critical_speed: stability.ok().and_then(|s| s.critical_speed()),
-        degree: CurvingLimits::new(&case, 0.0).map_or(0.0, |limits| limits.degree()),
-        bending_stiffness: case.vehicle.bending_stiffness(),
-        lateral_stiffness: case.vehicle.suspension.primary.lateral_stiffness,
-        x: solved.point.x.clone(),
-        rank: match &solved.point.values {
-            Ok(values) if values.feasible() => (0, values.objective()),
-            Ok(values) => (1, values.violation()),
-            Err(_) => (2, 0.0),
-        },
-    }
-}
-
-/// Profiles nearly as good as the best: later rounds change little.
-fn in_the_race(known: &StageResult, all: Vec<f64>) -> Vec<f64> {
-    let best = known
-        .profiles
-        .iter()
-        .map(|p| p.rank)
-        .min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let near =
-        |p: &Profile| best.is_some_and(|(class, rank)| p.rank.0 == class && p.rank.1 < rank + RACE);
-    all.into_iter()
-        .filter(|c| {
-            known
-                .profiles
-                .iter()
-                .any(|p| same(p.conicity, *c) && near(p))
-        })
-        .collect()
-}
-
-impl StageResult {
-    /// Adds what an earlier round spent, and its profiles that left the race.
-    fn absorb(&mut self, earlier: &Self) {
-        let first = &earlier.explained.effort;
-        self.explained.effort.add(first);
-        // The first round looked everywhere; later ones follow.
-        self.explained.effort.starts = first.starts;
-        self.explained.effort.agreed = first.agreed;
-        for profile in &earlier.profiles {
-            if !self
-                .profiles
-                .iter()
-                .any(|p| same(p.conicity, profile.conicity))
-            {
-                self.profiles.push(profile.clone());
-            }
-        }
-        self.profiles
-            .sort_by(|a, b| a.conicity.total_cmp(&b.conicity));
     }
 }

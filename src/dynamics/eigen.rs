@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, SMatrix, linalg::Schur};
 
-use super::{LinearSystem, balance::balance, parts, simultaneous};
+use super::{ForcedModel, balance::balance, parts, simultaneous};
 
 /// Why no eigenvalues came out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -25,13 +25,14 @@ pub struct Poles {
 }
 
 impl Poles {
-    /// Of a system without input at `speed`, m/s.
+    /// Of a model without input at `speed`, m/s.
     ///
     /// # Errors
     ///
     /// As [`eigenvalues`].
-    pub fn at(system: &LinearSystem, speed: f64) -> Result<Self, EigenError> {
-        if let Some(values) = from_estimates(system, speed) {
+    pub fn at(model: &ForcedModel, speed: f64) -> Result<Self, EigenError> {
+        let system = &model.system;
+        if let Some(values) = from_estimates(model, speed) {
             return Ok(Self { speed, values });
         }
         let mut values = Vec::with_capacity(2 * system.order());
@@ -57,13 +58,13 @@ const SPLIT: f64 = 1e-6;
 
 /// Eigenvalues refined from those of the parts of a system that has two that are alike. `None` if it
 /// has not, or they do not come out for sure.
-fn from_estimates(system: &LinearSystem, speed: f64) -> Option<Vec<Complex<f64>>> {
-    let [one, rest] = parts::held_apart(system, speed)?.map(eigenvalues);
+fn from_estimates(model: &ForcedModel, speed: f64) -> Option<Vec<Complex<f64>>> {
+    let [one, rest] = parts::held_apart(&model.system, speed)?.map(eigenvalues);
     let mut estimates = rest.ok()?;
     for s in one.ok()? {
         estimates.extend([s * (1.0 + SPLIT), s * (1.0 - SPLIT)]);
     }
-    simultaneous::refined(system, speed, &estimates)
+    simultaneous::refined(model, speed, &estimates)
 }
 
 /// Sweeps allowed per eigenvalue: under 3 is normal; about one vehicle in 3000 never converges and

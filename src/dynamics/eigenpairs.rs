@@ -3,12 +3,9 @@
 use nalgebra::{Complex, DVector};
 use pulp::{Arch, Simd, WithSimd};
 
-use super::{
-    LinearSystem,
-    elimination::{
-        ALL, Factors, LANES, Lanes, Reals, Stiffness,
-        lanes::{add, div, sqrt},
-    },
+use super::elimination::{
+    ALL, Factors, LANES, Lanes, Reals, Stiffness,
+    lanes::{add, div, sqrt},
 };
 
 /// An eigenvalue and its slope at a speed.
@@ -146,8 +143,8 @@ impl Pairs {
 }
 
 /// Refines eigenpairs of a system.
-pub struct Refiner {
-    stiffness: Stiffness,
+pub struct Refiner<'m> {
+    stiffness: &'m Stiffness,
     factors: Factors,
     residual: Vec<Lanes>,
     arch: Arch,
@@ -164,10 +161,9 @@ const RELATED: f64 = 0.8;
 /// Steps allowed.
 const STEPS: usize = 6;
 
-impl Refiner {
-    /// Of a system.
-    pub fn new(system: &LinearSystem) -> Self {
-        let stiffness = Stiffness::new(system);
+impl<'m> Refiner<'m> {
+    /// Of a system with this stiffness.
+    pub fn new(stiffness: &'m Stiffness) -> Self {
         Self {
             factors: stiffness.factors(),
             residual: vec![Lanes::ZERO; stiffness.order()],
@@ -183,7 +179,7 @@ impl Refiner {
 
     /// The stiffness and room for its factors.
     pub fn parts(&mut self) -> (&Stiffness, &mut Factors, Arch) {
-        (&self.stiffness, &mut self.factors, self.arch)
+        (self.stiffness, &mut self.factors, self.arch)
     }
 
     /// Steps until s in all lanes below `used` changes by less than `settled`, relative; whether
@@ -215,12 +211,12 @@ impl Refiner {
     }
 }
 
-struct Step<'r> {
-    refiner: &'r mut Refiner,
+struct Step<'r, 'm> {
+    refiner: &'r mut Refiner<'m>,
     pairs: &'r mut Pairs,
 }
 
-impl WithSimd for Step<'_> {
+impl WithSimd for Step<'_, '_> {
     type Output = ();
 
     #[allow(clippy::inline_always)] // Where the vector unit is known.

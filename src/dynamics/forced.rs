@@ -1,7 +1,7 @@
 //! A linear system on irregular track: which inputs an irregularity drives, which outputs are
 //! wanted.
 
-use super::{LinearSystem, Row};
+use super::{LinearSystem, Row, elimination::Stiffness};
 use crate::track::Irregularity;
 
 /// A linear system with its track inputs and outputs.
@@ -9,6 +9,8 @@ use crate::track::Irregularity;
 pub struct ForcedModel {
     /// Equations of motion.
     pub system: LinearSystem,
+    /// Their elimination.
+    pub stiffness: Stiffness,
     /// Independent random inputs.
     pub excitations: Vec<Excitation>,
     /// Wanted outputs, in the order of the model's documentation.

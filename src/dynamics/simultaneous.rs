@@ -4,7 +4,7 @@ use nalgebra::Complex;
 use pulp::{Arch, Simd, WithSimd};
 
 use super::{
-    LinearSystem,
+    ForcedModel,
     elimination::{Factors, LANES, Lanes, Stiffness},
 };
 
@@ -33,11 +33,11 @@ const SPACING: f64 = 1e-10;
 /// quadratic, real ones come out as a complex pair where they have become one, and twins, such as those
 /// of two trucks, as fast as others.
 pub(super) fn refined(
-    system: &LinearSystem,
+    model: &ForcedModel,
     speed: f64,
     estimates: &[Complex<f64>],
 ) -> Option<Vec<Complex<f64>>> {
-    let stiffness = Stiffness::new(system);
+    let (stiffness, masses) = (&model.stiffness, &model.system.mass);
     let mut factors = stiffness.factors();
     stiffness.set_speed(speed, &mut factors);
     let upper = estimates.iter().copied().filter(|z| z.im >= 0.0);
@@ -45,12 +45,12 @@ pub(super) fn refined(
     roots.set(upper.collect());
     let arch = Arch::new();
     for _ in 0..ITERATIONS {
-        if roots.all.len() != 2 * system.order() {
+        if roots.all.len() != 2 * masses.len() {
             return None;
         }
         arch.dispatch(Corrections {
-            stiffness: &stiffness,
-            masses: &system.mass,
+            stiffness,
+            masses,
             factors: &mut factors,
             roots: &mut roots,
         });

@@ -84,7 +84,7 @@ impl Stability {
     /// [`EigenError`] if eigenvalues cannot be had.
     pub fn of(case: &Case) -> Result<Self, EigenError> {
         let model = LateralModel::new(case);
-        let poles = Poles::at(&model.forced.system, case.service.speed)?;
+        let poles = Poles::at(&model.forced, case.service.speed)?;
         Self::new(&model, &poles, case.model.speed_range, 1.0)
     }
 

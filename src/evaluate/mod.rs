@@ -63,8 +63,8 @@ impl Evaluation {
         let lateral = LateralModel::new(case);
         let vertical = VerticalModel::new(case);
         let speed = case.service.speed;
-        let lateral_poles = Poles::at(&lateral.forced.system, speed)?;
-        let vertical_poles = Poles::at(&vertical.forced.system, speed)?;
+        let lateral_poles = Poles::at(&lateral.forced, speed)?;
+        let vertical_poles = Poles::at(&vertical.forced, speed)?;
         let modes = LateralModes::new(&lateral, case, &lateral_poles)?;
         let vertical_modes = vertical_modes::vertical_modes(&vertical, &vertical_poles)?;
         Ok(Self {

@@ -136,7 +136,7 @@ impl LateralRide {
     ///
     /// [`NoRide`] where there is none.
     pub fn new(model: &LateralModel, case: &Case) -> Result<Self, NoRide> {
-        let poles = Poles::at(&model.forced.system, case.service.speed)?;
+        let poles = Poles::at(&model.forced, case.service.speed)?;
         Self::from_poles(model, case, &poles)
     }
 
@@ -197,7 +197,7 @@ impl VerticalRide {
     ///
     /// [`NoRide`] where there is none.
     pub fn new(model: &VerticalModel, case: &Case) -> Result<Self, NoRide> {
-        let poles = Poles::at(&model.forced.system, case.service.speed)?;
+        let poles = Poles::at(&model.forced, case.service.speed)?;
         Self::from_poles(model, case, &poles)
     }
 

@@ -38,11 +38,11 @@ impl Modes {
     pub fn new(case: &Case, speeds: &[f64]) -> Result<Self, EigenError> {
         let model = LateralModel::new(case);
         let at = |speed: f64| {
-            let poles = Poles::at(&model.forced.system, speed)?;
+            let poles = Poles::at(&model.forced, speed)?;
             LateralModes::new(&model, case, &poles)
         };
         let vertical = VerticalModel::new(case);
-        let poles = Poles::at(&vertical.forced.system, case.service.speed)?;
+        let poles = Poles::at(&vertical.forced, case.service.speed)?;
         Ok(Self {
             lateral: at(case.service.speed)?,
             vertical: vertical_modes(&vertical, &poles)?,

@@ -99,7 +99,7 @@ impl Spectra {
             .map(|i| low * (step * i as f64).exp())
             .collect();
         let of = |model: &ForcedModel, wanted: &[(&'static str, usize)]| {
-            let poles = Poles::at(&model.system, case.service.speed)?;
+            let poles = Poles::at(model, case.service.speed)?;
             let stationary = poles.stable();
             Ok(stationary.then(|| columns(model, case, &frequency, wanted)))
         };

@@ -25,8 +25,8 @@ use super::surrogate::{Quadratic, Surrogate};
 const PROGRAMS: usize = 12;
 /// Smallest curvature of H, per radius.
 const CURVATURE: f64 = 1e-6;
-/// Settling of the step, in radii.
-const SETTLED: f64 = 1e-6;
+/// Settling of the step, in radii: the surrogate is not as good as that.
+const SETTLED: f64 = 1e-4;
 
 /// Solution of a subproblem.
 #[derive(Debug, Clone)]

@@ -146,7 +146,7 @@ pub(super) fn roll(book: &Workbook, entry: &Entry) -> Figure {
     let case = book.case();
     let mut family = Family::new("roll", "", Stroke::default()).labelled(Labels::Legend);
     let lateral = LateralModel::new(case);
-    let poles = Poles::at(&lateral.forced.system, case.service.speed);
+    let poles = Poles::at(&lateral.forced, case.service.speed);
     let stable = poles.is_ok_and(|poles| poles.stable());
     if stable {
         let bands = roll_bands(book, &lateral.forced, lateral::output::ROLL_ACCELERATION);

@@ -86,7 +86,7 @@ fn chart(figure: Figure, mut modes: Vec<Shown>) -> Figure {
 /// Modes of the vertical model.
 pub(super) fn vertical(book: &Workbook, entry: &Entry) -> Figure {
     let model = VerticalModel::new(book.case());
-    let found = Poles::at(&model.forced.system, book.case().service.speed)
+    let found = Poles::at(&model.forced, book.case().service.speed)
         .and_then(|poles| vertical_modes(&model, &poles))
         .unwrap_or_default();
     let modes = found

@@ -38,20 +38,20 @@ pub fn vertical_ride(case: &Case) -> Option<VerticalRide> {
 
 /// What passengers feel laterally, at c.g., front and rear; `None`: unstable at the operating speed.
 pub fn lateral_passengers(case: &Case, model: &LateralModel) -> Option<[PassengerRide; 3]> {
-    let poles = Poles::at(&model.forced.system, case.service.speed).ok()?;
+    let poles = Poles::at(&model.forced, case.service.speed).ok()?;
     PassengerRide::lateral(model, case, &poles).ok()
 }
 
 /// What they feel vertically; `None`: the carbody overturns.
 pub fn vertical_passengers(case: &Case) -> Option<[PassengerRide; 3]> {
     let model = VerticalModel::new(case);
-    let poles = Poles::at(&model.forced.system, case.service.speed).ok()?;
+    let poles = Poles::at(&model.forced, case.service.speed).ok()?;
     PassengerRide::vertical(&model, case, &poles).ok()
 }
 
 /// Modes of the lateral model at a speed, m/s; none where there are no eigenvalues.
 pub fn lateral_modes(case: &Case, model: &LateralModel, speed: f64) -> Vec<LateralMode> {
-    let modes = Poles::at(&model.forced.system, speed)
-        .and_then(|poles| LateralModes::new(model, case, &poles));
+    let modes =
+        Poles::at(&model.forced, speed).and_then(|poles| LateralModes::new(model, case, &poles));
     modes.map_or_else(|_| Vec::new(), |modes| modes.oscillatory)
 }

@@ -202,7 +202,7 @@ impl<'a> Lateral<'a> {
         let model = LateralModel::new(case);
         Ok(Self {
             case,
-            poles: Poles::at(&model.forced.system, case.service.speed)?,
+            poles: Poles::at(&model.forced, case.service.speed)?,
             model,
             tangents: Vec::new(),
             graded: false,
@@ -231,7 +231,7 @@ impl<'a> Vertical<'a> {
     fn model(&mut self) -> Result<&(VerticalModel, Poles, Vec<ForcedTangent>), Failure> {
         if self.model.is_none() {
             let model = VerticalModel::new(self.case);
-            let poles = Poles::at(&model.forced.system, self.case.service.speed)
+            let poles = Poles::at(&model.forced, self.case.service.speed)
                 .map_err(|_| Failure::Eigenvalues)?;
             let tangents = self.constants.map(|constants| constants.vertical(&model));
             self.model = Some((model, poles, tangents.unwrap_or_default()));

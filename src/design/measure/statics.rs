@@ -90,7 +90,7 @@ fn derivative(index: Index, case: &Case, found: &[Piece], constant: Parameter) -
             return Some(closed_form(index, &case));
         }
         let model = VerticalModel::new(&case);
-        let poles = Poles::at(&model.forced.system, case.service.speed).ok()?;
+        let poles = Poles::at(&model.forced, case.service.speed).ok()?;
         flexible_modes(&model, &poles).ok()
     };
     let around = [at(-2.0)?, at(-1.0)?, at(1.0)?, at(2.0)?];

@@ -10,7 +10,7 @@
 
 mod carbody;
 
-use super::{ForcedModel, LinearSystem, Output, Row, forced::Excitation};
+use super::{ForcedModel, LinearSystem, Output, Row, elimination::Stiffness, forced::Excitation};
 use crate::{
     case::Case,
     track::Irregularity,
@@ -125,6 +125,7 @@ impl VerticalModel {
             ],
             outputs: builder.outputs(),
             lags: std::array::from_fn(|i| vehicle.wheelset_lag(i)),
+            stiffness: Stiffness::new(&system),
             system,
         };
         Self { forced }

@@ -13,7 +13,7 @@ use super::{
     track::{Branches, take_nearest, worth_following},
 };
 use crate::{
-    dynamics::{Known, LinearSystem, Poles, elimination::LANES},
+    dynamics::{ForcedModel, Known, Poles, elimination::LANES},
     evaluate::mode::{damping_ratio, size},
 };
 
@@ -31,7 +31,7 @@ impl Branches<'_> {
         let way = (target / now.speed()).ln();
         for width in WIDTHS.into_iter().filter(|width| *width < way.abs()) {
             let speed = now.speed() * width.copysign(way).exp();
-            let poles = Poles::at(&self.model.forced.system, speed).ok()?;
+            let poles = Poles::at(&self.model.forced, speed).ok()?;
             let (values, mut clear) = matched(now, speed, worth_following(&poles));
             let Some(next) = State::of(&mut self.refiner, speed, values) else {
                 continue;
@@ -49,7 +49,7 @@ impl Branches<'_> {
                     continue;
                 }
                 settled.push([lane, other]);
-                if !twins.are_quiet(search) || !twins.hold(&self.model.forced.system) {
+                if !twins.are_quiet(search) || !twins.hold(&self.model.forced) {
                     return None;
                 }
                 clear[other] = false;
@@ -139,9 +139,9 @@ impl Twins {
     }
 
     /// Whether the spectrum in the middle has them where they are expected.
-    fn hold(&self, system: &LinearSystem) -> bool {
+    fn hold(&self, model: &ForcedModel) -> bool {
         let [low, high] = self.speeds;
-        let Ok(poles) = Poles::at(system, (low * high).sqrt()) else {
+        let Ok(poles) = Poles::at(model, (low * high).sqrt()) else {
             return false;
         };
         let mut values: Vec<Complex<f64>> = poles.oscillatory().collect();

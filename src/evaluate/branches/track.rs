@@ -34,7 +34,7 @@ const SAME: f64 = 1e-5;
 /// The modes of a lateral model over the speed.
 pub struct Branches<'m> {
     pub(super) model: &'m LateralModel,
-    pub(super) refiner: Refiner,
+    pub(super) refiner: Refiner<'m>,
     start: State,
     /// Room for the next state.
     spare: Option<State>,
@@ -51,7 +51,7 @@ impl<'m> Branches<'m> {
     /// From the poles at some speed, to be followed within a range of speeds, m/s. `None` if they
     /// cannot be told apart.
     pub fn within(range: [f64; 2], model: &'m LateralModel, poles: &Poles) -> Option<Self> {
-        let mut refiner = Refiner::new(&model.forced.system);
+        let mut refiner = Refiner::new(&model.forced.stiffness);
         let growing = poles.values.iter().filter(|s| s.im == 0.0 && s.re >= 0.0);
         let mut branches = Self {
             growing: growing.count(),
@@ -129,7 +129,7 @@ impl<'m> Branches<'m> {
 
     /// Modes at a speed that are not among some known there.
     fn others(&mut self, known: &[Known], speed: f64) -> Option<State> {
-        let poles = Poles::at(&self.model.forced.system, speed).ok()?;
+        let poles = Poles::at(&self.model.forced, speed).ok()?;
         let mut values = worth_following(&poles);
         for known in known {
             let taken = take_nearest(&mut values, known.s, SAME * size(known.s));

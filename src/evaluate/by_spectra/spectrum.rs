@@ -50,7 +50,7 @@ pub(super) fn sweep(
 impl Spectrum {
     /// Computes them at `speed`, m/s.
     pub fn at(model: &LateralModel, speed: f64) -> Result<Self, EigenError> {
-        let poles = Poles::at(&model.forced.system, speed)?;
+        let poles = Poles::at(&model.forced, speed)?;
         Ok(Self {
             speed,
             diverges: poles.values.iter().any(|s| s.im == 0.0 && s.re > 0.0),

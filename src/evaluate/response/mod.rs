@@ -33,7 +33,7 @@ pub struct Response<'a> {
     speed: f64,
     outputs: Range<usize>,
     arch: Arch,
-    stiffness: Stiffness,
+    stiffness: &'a Stiffness,
     factors: Factors,
     excitations: Vec<Excited>,
 }
@@ -85,7 +85,7 @@ impl<'a> Response<'a> {
     /// Some of its outputs.
     pub fn of(model: &'a ForcedModel, track: &'a Track, speed: f64, outputs: Range<usize>) -> Self {
         let system = &model.system;
-        let stiffness = Stiffness::new(system);
+        let stiffness = &model.stiffness;
         let mut factors = stiffness.factors();
         stiffness.set_speed(speed, &mut factors);
         let excitations = model.excitations.iter().map(|excitation| {
