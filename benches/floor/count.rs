@@ -83,6 +83,14 @@ impl Elimination {
         self.factor() + excitations as f64 * self.solve()
     }
 
+    /// A correction of one of all eigenvalues at once: factors, the pivots' and the distances' product,
+    /// and the sum over the others.
+    pub fn correction(&self) -> f64 {
+        let distances = 2.0 * self.order;
+        let sum = distances * (2.0 + INVERSE + PRODUCT_ADDED);
+        self.factor() + PRODUCT * self.order + distances * (2.0 + PRODUCT) + sum
+    }
+
     /// A step of two-sided Rayleigh quotient iteration: factors, both solutions, D′ applied to both
     /// vectors, their lengths and products.
     pub fn rayleigh_step(&self) -> f64 {

@@ -102,6 +102,7 @@ pub fn eigenvalues(mut a: DMatrix<f64>) -> Result<Vec<Complex<f64>>, EigenError>
     balance(&mut a);
     // The models' own sizes are known when compiling, which makes them faster.
     let values = match a.nrows() {
+        2 => schur_values!(SMatrix::<f64, 2, 2>::from_column_slice(a.as_slice())),
         4 => schur_values!(SMatrix::<f64, 4, 4>::from_column_slice(a.as_slice())),
         6 => schur_values!(SMatrix::<f64, 6, 6>::from_column_slice(a.as_slice())),
         12 => schur_values!(SMatrix::<f64, 12, 12>::from_column_slice(a.as_slice())),

@@ -26,12 +26,15 @@ const SPACING: f64 = 1e-10;
 /// ```
 ///
 /// W. Börsch-Supan, *Residuenabschätzung für Polynom-Nullstellen mittels Lagrange-Interpolation*,
-/// Numer. Math. 14 (1970): corrections fall with the third power of those before, and the discs
-/// about zⱼ with radius N |Wⱼ|, N the number of eigenvalues, hold all of these; where they are apart,
-/// each holds one. The eigenvalues are the roots of 1 + Σ Wₖ/(z − zₖ), which the correction solves
-/// with all terms but the nearest taken at zⱼ. Where two are close, it keeps the terms of both: of a
-/// quadratic, real ones come out as a complex pair where they have become one, and twins, such as those
-/// of two trucks, as fast as others.
+/// Numer. Math. 14 (1970): corrections fall with the third power of those before. The discs about zⱼ
+/// with radius N |Wⱼ|, N the number of eigenvalues, hold all of these, and one each where they are
+/// apart (B. T. Smith, *Error bounds for zeros of a polynomial based upon Gerschgorin's theorems*,
+/// J. ACM 17, 1970).
+///
+/// The eigenvalues are the roots of 1 + Σ Wₖ/(z − zₖ), which the correction solves with all terms but
+/// the nearest taken at zⱼ. Where two are close, it keeps the terms of both: of a quadratic, real ones
+/// come out as a complex pair where they have become one, and twins, such as those of two trucks, as
+/// fast as others.
 pub(super) fn refined(
     model: &ForcedModel,
     speed: f64,
