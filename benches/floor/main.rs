@@ -109,7 +109,7 @@ fn main() {
     );
 
     let system = &lateral.forced.system;
-    let mut refiner = Refiner::new(&lateral.forced.stiffness);
+    let mut refiner = Refiner::new(lateral.forced.stiffness());
     let s = lateral_poles.values[0] * 1.001;
     let mut pairs = Pairs::near(
         Lanes::from_fn(|_| s),

@@ -1,6 +1,8 @@
 //! A linear system on irregular track: which inputs an irregularity drives, which outputs are
 //! wanted.
 
+use std::sync::OnceLock;
+
 use super::{LinearSystem, Row, elimination::Stiffness};
 use crate::track::Irregularity;
 
@@ -9,14 +11,23 @@ use crate::track::Irregularity;
 pub struct ForcedModel {
     /// Equations of motion.
     pub system: LinearSystem,
-    /// Their elimination.
-    pub stiffness: Stiffness,
+    /// Their elimination, from when it is first asked for: models of which only the matrices matter
+    /// have none.
+    pub(super) elimination: OnceLock<Stiffness>,
     /// Independent random inputs.
     pub excitations: Vec<Excitation>,
     /// Wanted outputs, in the order of the model's documentation.
     pub outputs: Vec<Output>,
     /// Distance of each wheelset behind the first, m: its input is delayed by this over V.
     pub lags: [f64; 4],
+}
+
+impl ForcedModel {
+    /// The dynamic stiffness, ready for elimination.
+    pub fn stiffness(&self) -> &Stiffness {
+        self.elimination
+            .get_or_init(|| Stiffness::new(&self.system))
+    }
 }
 
 /// One irregularity, felt by the four wheelsets one after the other.

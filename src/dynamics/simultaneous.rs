@@ -40,7 +40,7 @@ pub(super) fn refined(
     speed: f64,
     estimates: &[Complex<f64>],
 ) -> Option<Vec<Complex<f64>>> {
-    let (stiffness, masses) = (&model.stiffness, &model.system.mass);
+    let (stiffness, masses) = (model.stiffness(), &model.system.mass);
     let mut factors = stiffness.factors();
     stiffness.set_speed(speed, &mut factors);
     let upper = estimates.iter().copied().filter(|z| z.im >= 0.0);

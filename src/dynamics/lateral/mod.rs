@@ -16,7 +16,9 @@ mod wheelset;
 
 pub use coordinates::{Body, Coordinate, Coordinates};
 
-use super::{ForcedModel, LinearSystem, Output, Row, elimination::Stiffness, forced::Excitation};
+use std::sync::OnceLock;
+
+use super::{ForcedModel, LinearSystem, Output, Row, forced::Excitation};
 use crate::{
     case::{Case, Crosslevel, Model, TruckRoll},
     track::Irregularity,
@@ -101,7 +103,7 @@ impl LateralModel {
             ],
             outputs: builder.outputs(),
             lags: std::array::from_fn(|i| case.vehicle.wheelset_lag(i)),
-            stiffness: Stiffness::new(&system),
+            elimination: OnceLock::new(),
             system,
         };
         Self {

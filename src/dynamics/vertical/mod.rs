@@ -10,7 +10,9 @@
 
 mod carbody;
 
-use super::{ForcedModel, LinearSystem, Output, Row, elimination::Stiffness, forced::Excitation};
+use std::sync::OnceLock;
+
+use super::{ForcedModel, LinearSystem, Output, Row, forced::Excitation};
 use crate::{
     case::Case,
     track::Irregularity,
@@ -125,7 +127,7 @@ impl VerticalModel {
             ],
             outputs: builder.outputs(),
             lags: std::array::from_fn(|i| vehicle.wheelset_lag(i)),
-            stiffness: Stiffness::new(&system),
+            elimination: OnceLock::new(),
             system,
         };
         Self { forced }

@@ -51,7 +51,7 @@ impl<'m> Branches<'m> {
     /// From the poles at some speed, to be followed within a range of speeds, m/s. `None` if they
     /// cannot be told apart.
     pub fn within(range: [f64; 2], model: &'m LateralModel, poles: &Poles) -> Option<Self> {
-        let mut refiner = Refiner::new(&model.forced.stiffness);
+        let mut refiner = Refiner::new(model.forced.stiffness());
         let growing = poles.values.iter().filter(|s| s.im == 0.0 && s.re >= 0.0);
         let mut branches = Self {
             growing: growing.count(),

@@ -85,7 +85,7 @@ impl<'a> Response<'a> {
     /// Some of its outputs.
     pub fn of(model: &'a ForcedModel, track: &'a Track, speed: f64, outputs: Range<usize>) -> Self {
         let system = &model.system;
-        let stiffness = &model.stiffness;
+        let stiffness = model.stiffness();
         let mut factors = stiffness.factors();
         stiffness.set_speed(speed, &mut factors);
         let excitations = model.excitations.iter().map(|excitation| {
