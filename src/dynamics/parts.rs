@@ -61,12 +61,14 @@ pub(super) fn state_matrices(system: &LinearSystem, v: f64) -> Vec<DMatrix<f64>>
 /// alike, and of the coordinates that belong to neither, each with all others held. `None` if none are
 /// alike.
 pub(super) fn held_apart(system: &LinearSystem, v: f64) -> Option<[DMatrix<f64>; 2]> {
+    if system.alike.is_empty() {
+        return None;
+    }
     let one: Vec<usize> = system.alike.iter().map(|pair| pair[0]).collect();
     let of_neither = |i: &usize| !system.alike.iter().flatten().any(|other| other == i);
     let rest: Vec<usize> = (0..system.order()).filter(of_neither).collect();
     let c = system.damping_at(v);
-    let matrices = [&one, &rest].map(|part| alone(system, [&system.stiffness, &c], part, v));
-    (!one.is_empty()).then_some(matrices)
+    Some([one, rest].map(|part| alone(system, [&system.stiffness, &c], &part, v)))
 }
 
 /// Matrix of the first-order form of some coordinates alone, of a system with stiffness `k` and damping
