@@ -145,11 +145,9 @@ impl Procedure<'_> {
             || !self.spec.objective.is_empty()
             || self.tasks.entangled();
         if joint_only {
-            let task = |case: &Case| self.tasks.joint(case);
             let stage = self.stage(&Brief {
                 now: &self.spec.case,
                 trade_off: None,
-                task: &task,
                 known: None,
                 also: &[],
                 seed: self.spec.design.seed,
@@ -241,11 +239,9 @@ impl Procedure<'_> {
     ) -> Result<Stage, DesignError> {
         self.archive
             .stage(&format!("{trade_off}, round {}", round + 1));
-        let task = |case: &Case| self.tasks.trade_off(case, trade_off);
         self.stage(&Brief {
             now,
             trade_off: Some(trade_off),
-            task: &task,
             known,
             also: &[],
             seed: self.spec.design.seed,
@@ -255,18 +251,16 @@ impl Procedure<'_> {
     /// All at once, from the sequential design and from everywhere.
     fn joint(&self, sequential: &Case) -> Result<Joint, DesignError> {
         self.archive.stage("all at once");
-        let task = |case: &Case| self.tasks.joint(case);
         let stage = self.stage(&Brief {
             now: sequential,
             trade_off: None,
-            task: &task,
             known: None,
             also: std::slice::from_ref(sequential),
             seed: self.spec.design.seed,
         })?;
         let study = &stage.best.study;
         // In the terms of the task, whether or not the solution is lifted.
-        let plain = &task(&stage.case).study;
+        let plain = &self.tasks.joint(&stage.case).study;
         let merits = [sequential, &stage.case].map(|case| plain.evaluate(&plain.coordinates(case)));
         let mut indices: Vec<Index> = Vec::new();
         for term in study.terms() {

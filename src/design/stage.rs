@@ -51,8 +51,6 @@ pub struct Brief<'a> {
     pub now: &'a Case,
     /// `None` for all at once.
     pub trade_off: Option<TradeOff>,
-    /// The task for a case.
-    pub task: &'a dyn Fn(&Case) -> Task,
     /// What an earlier round came to: only profiles still in the race are followed.
     pub known: Option<&'a StageResult>,
     /// Other designs to begin from.
@@ -71,11 +69,18 @@ impl Brief<'_> {
         }
     }
 
+    fn task(&self, tasks: &Tasks, case: &Case) -> Task {
+        match self.trade_off {
+            Some(trade_off) => tasks.trade_off(case, trade_off),
+            None => tasks.joint(case),
+        }
+    }
+
     /// The study of a profile and where its search begins, when another has reached `beat`.
-    fn begin(&self, conicity: f64, beat: f64) -> (Study, Start) {
+    fn begin(&self, tasks: &Tasks, conicity: f64, beat: f64) -> (Study, Start) {
         let mut case = self.now.clone();
         case.wheel_rail.conicity = conicity;
-        let Task { study, .. } = (self.task)(&case);
+        let Task { study, .. } = self.task(tasks, &case);
         let current = study.coordinates(self.now);
         let start = match self.known {
             None => Start::everywhere(self.seed).with(vec![current]),
@@ -108,7 +113,7 @@ pub fn solve(brief: &Brief, tasks: &Tasks, archive: &Archive) -> Result<Stage, D
     let mut failure = NoDesign::Failed(Failure::NotFinite);
     let mut beat = f64::INFINITY;
     for conicity in brief.choices(tasks) {
-        let (study, start) = brief.begin(conicity, beat);
+        let (study, start) = brief.begin(tasks, conicity, beat);
         match search(&study, &start, archive) {
             Ok(Searched { study, solved }) => {
                 // A profile that was given up has no optimum to show.
@@ -150,7 +155,7 @@ pub fn solve(brief: &Brief, tasks: &Tasks, archive: &Archive) -> Result<Stage, D
     } else {
         1.0
     };
-    let goal = (brief.task)(brief.now).goal;
+    let goal = brief.task(tasks, brief.now).goal;
     let mut explained = Explained::new(&best.study, &best.solved, goal);
     explained.effort.evaluations = effort.evaluations;
     explained.effort.failures = effort.failures;

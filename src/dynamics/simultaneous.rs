@@ -258,10 +258,8 @@ impl WithSimd for Corrections<'_> {
                 let pivot = pivot.scaled(simd, &[self.masses[coordinate]; LANES]);
                 inverse = inverse.times(simd, &pivot);
                 for k in rest.by_ref().take(2) {
-                    let mut distance = minus(simd, &z, all[k]);
-                    for l in (0..some.len()).filter(|l| some[*l].place == k) {
-                        (distance.re[l], distance.im[l]) = (1.0, 0.0);
-                    }
+                    let own = (0..some.len()).filter(|l| some[*l].place == k);
+                    let distance = distance(simd, &z, all[k], own);
                     inverse = inverse.times(simd, &distance);
                 }
             }
@@ -301,11 +299,11 @@ impl WithSimd for Sums<'_> {
             });
             let mut sum = Lanes::ONE;
             for (k, z) in all.iter().enumerate() {
-                let mut distance = minus(simd, &at, *z);
-                let mut w = Lanes::from_fn(|_| corrections[k]);
                 let is_left_out = |l: &usize| some[*l].place == k || some[*l].partner == Some(k);
-                for l in (0..some.len()).filter(is_left_out) {
-                    (distance.re[l], distance.im[l]) = (1.0, 0.0);
+                let left_out = (0..some.len()).filter(is_left_out);
+                let distance = distance(simd, &at, *z, left_out.clone());
+                let mut w = Lanes::from_fn(|_| corrections[k]);
+                for l in left_out {
                     (w.re[l], w.im[l]) = (0.0, 0.0);
                 }
                 sum = sum.plus_product(simd, &w, &distance.inverse(simd));
@@ -317,13 +315,18 @@ impl WithSimd for Sums<'_> {
     }
 }
 
-/// z − one number.
+/// z − one of the estimates, and one in the lanes that leave it out.
 #[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
 #[inline(always)]
-fn minus<S: Simd>(simd: S, z: &Lanes, one: Complex<f64>) -> Lanes {
-    let other = Lanes {
-        re: [-one.re; LANES],
-        im: [-one.im; LANES],
-    };
-    z.plus_scaled(simd, &[1.0; LANES], &other)
+fn distance<S: Simd>(
+    simd: S,
+    z: &Lanes,
+    one: Complex<f64>,
+    left_out: impl Iterator<Item = usize>,
+) -> Lanes {
+    let mut distance = z.minus(simd, one);
+    for l in left_out {
+        (distance.re[l], distance.im[l]) = (1.0, 0.0);
+    }
+    distance
 }

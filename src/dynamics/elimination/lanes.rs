@@ -162,6 +162,16 @@ impl Lanes {
         }
     }
 
+    /// self − a, the same number in all lanes.
+    #[inline(always)]
+    #[must_use]
+    pub fn minus<S: Simd>(&self, simd: S, a: Complex<f64>) -> Self {
+        Self {
+            re: add(simd, &self.re, &[-a.re; LANES]),
+            im: add(simd, &self.im, &[-a.im; LANES]),
+        }
+    }
+
     /// a self with real numbers.
     #[inline(always)]
     #[must_use]

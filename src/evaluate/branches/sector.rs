@@ -152,13 +152,9 @@ impl WithSimd for Steps<'_> {
         self.stiffness.factor(simd, &s, self.factors);
         let mut left = self.stiffness.determinant(simd, self.factors);
         for (k, known) in self.known.iter().enumerate() {
-            for im in [-known.im, known.im] {
-                let mode = Lanes {
-                    re: [-known.re; LANES],
-                    im: [im; LANES],
-                };
+            for mode in [*known, known.conj()] {
                 // Divided by s − λ, but for its size.
-                let mut factor = s.plus_scaled(simd, &[1.0; LANES], &mode);
+                let mut factor = s.minus(simd, mode);
                 factor.im = neg(simd, &factor.im);
                 left = left.times(simd, &factor);
             }
