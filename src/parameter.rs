@@ -312,7 +312,7 @@ impl Parameter {
                     Self::PrimaryLateralStiffness => primary.lateral_stiffness = value,
                     Self::PrimaryVerticalStiffness => primary.vertical_stiffness = value,
                     Self::PrimaryVerticalFrequency => {
-                        let k_sz = secondary.vertical_stiffness;
+                        let k_sz = secondary.static_vertical_stiffness();
                         primary.vertical_stiffness =
                             closed::primary_vertical_stiffness(frame, k_sz, value);
                     }

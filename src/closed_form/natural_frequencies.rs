@@ -36,11 +36,12 @@ pub fn truck_lateral(vehicle: &Vehicle) -> Oscillator {
     )
 }
 
-/// Truck frame vertical (3.5-9, 10): k = 4K_pz + 2K_sz over M_t.
+/// Truck frame vertical (3.5-9, 10): k = 4K_pz + 2K_sz over M_t; with air springs their static
+/// stiffness in place of K_sz.
 pub fn truck_vertical(vehicle: &Vehicle) -> Oscillator {
     let (p, s) = (&vehicle.suspension.primary, &vehicle.suspension.secondary);
     Oscillator::new(
-        4.0 * p.vertical_stiffness + 2.0 * s.vertical_stiffness,
+        4.0 * p.vertical_stiffness + 2.0 * s.static_vertical_stiffness(),
         4.0 * p.c_pz() + 2.0 * s.vertical_damping,
         vehicle.truck.mass,
     )
@@ -91,11 +92,12 @@ pub fn carbody_lateral(vehicle: &Vehicle) -> Oscillator {
     )
 }
 
-/// Carbody vertical (3.5-19, 20): k = 4K_sz over M_c.
+/// Carbody vertical (3.5-19, 20): k = 4K_sz over M_c; with air springs their static stiffness in
+/// place of K_sz.
 pub fn carbody_vertical(vehicle: &Vehicle) -> Oscillator {
     let s = &vehicle.suspension.secondary;
     Oscillator::new(
-        4.0 * s.vertical_stiffness,
+        4.0 * s.static_vertical_stiffness(),
         4.0 * s.vertical_damping,
         vehicle.carbody.mass,
     )
@@ -125,12 +127,13 @@ pub fn carbody_yaw(vehicle: &Vehicle) -> Oscillator {
     )
 }
 
-/// Carbody pitch (3.5-25, 26): k = 4l_s²K_sz over I_cy.
+/// Carbody pitch (3.5-25, 26): k = 4l_s²K_sz over I_cy; with air springs their static stiffness in
+/// place of K_sz.
 pub fn carbody_pitch(vehicle: &Vehicle) -> Oscillator {
     let s = &vehicle.suspension.secondary;
     let l_s2 = vehicle.carbody.half_truck_spacing.powi(2);
     Oscillator::new(
-        4.0 * l_s2 * s.vertical_stiffness,
+        4.0 * l_s2 * s.static_vertical_stiffness(),
         4.0 * l_s2 * s.vertical_damping,
         vehicle.carbody.pitch_inertia,
     )

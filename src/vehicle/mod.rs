@@ -50,13 +50,15 @@ impl Vehicle {
         self.axle_load() / 2.0
     }
 
-    /// Static deflection of the secondary springs under the carbody, m.
+    /// Static deflection of the secondary springs under the carbody, m; of air springs, which are
+    /// levelled, the deflection that their static stiffness would give.
     ///
     /// ```math
     /// M_c g / (4 K_sz)
     /// ```
     pub fn secondary_static_deflection(&self) -> f64 {
-        self.carbody.mass * GRAVITY / (4.0 * self.suspension.secondary.vertical_stiffness)
+        let stiffness = self.suspension.secondary.static_vertical_stiffness();
+        self.carbody.mass * GRAVITY / (4.0 * stiffness)
     }
 
     /// Total mass, kg.

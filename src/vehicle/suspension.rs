@@ -68,6 +68,15 @@ pub struct Secondary {
 }
 
 impl Secondary {
+    /// Stiffness under slow vertical motion, per side, N/m: K_sz, or that of the air spring in its
+    /// place.
+    pub fn static_vertical_stiffness(&self) -> f64 {
+        match &self.air_spring {
+            Some(air) => air.static_stiffness(),
+            None => self.vertical_stiffness,
+        }
+    }
+
     /// C_sψ in force, N m s/rad.
     pub fn c_spsi(&self) -> f64 {
         dependent(self.yaw_damping, self.yaw_stiffness)
@@ -98,6 +107,20 @@ pub struct AirSpring {
     /// Spring in parallel with the orifice (air in the reservoir), N/m; 0 for a plain series
     /// branch.
     pub reservoir_stiffness: f64,
+}
+
+impl AirSpring {
+    /// Stiffness under slow motion, N/m, when the orifice carries no force.
+    ///
+    /// ```math
+    /// k_0 + k_1 k_r / (k_1 + k_r)
+    /// ```
+    ///
+    /// k_0 direct, k_1 series, k_r reservoir (Figure 3.4.5a).
+    pub fn static_stiffness(&self) -> f64 {
+        let (k_1, k_r) = (self.series_stiffness, self.reservoir_stiffness);
+        self.direct_stiffness + k_1 * k_r / (k_1 + k_r)
+    }
 }
 
 fn dependent(given: Option<f64>, stiffness: f64) -> f64 {
