@@ -1,10 +1,12 @@
 //! One case: a vehicle with its wheels and rails, on a track at a speed, and the choices that the
 //! models leave open.
 
+use serde::Serialize;
+
 use crate::{track::Track, vehicle::Vehicle, wheel_rail::WheelRail};
 
 /// Everything that an evaluation needs.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Case {
     /// Speed and track.
     pub service: Service,
@@ -17,7 +19,7 @@ pub struct Case {
 }
 
 /// How the vehicle is used.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Service {
     /// V, m/s.
     pub speed: f64,
@@ -31,7 +33,7 @@ pub struct Service {
 }
 
 /// How the truck frame rolls in the lateral model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub enum TruckRoll {
     /// The mean of its wheelsets' roll (3.4.4.1): 15 degrees of freedom.
     #[default]
@@ -41,7 +43,7 @@ pub enum TruckRoll {
 }
 
 /// How crosslevel acts on the lateral model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub enum Crosslevel {
     /// Through the roll of wheelsets and trucks only (the report's form).
     #[default]
@@ -51,7 +53,7 @@ pub enum Crosslevel {
 }
 
 /// How the creep coefficients of the steady curving model follow the wheel loads (3.4.5).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub enum CurvingCreep {
     /// As on tangent track.
     #[default]
@@ -61,7 +63,7 @@ pub enum CurvingCreep {
 }
 
 /// Choices that the models leave open; the defaults are the report's forms.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Model {
     /// Truck roll in the lateral model.
     pub truck_roll: TruckRoll,

@@ -7,6 +7,8 @@ mod term;
 
 pub use term::{Role, Term};
 
+use sha2::{Digest, Sha256};
+
 use super::measure::{Wanted, measure, piece_name};
 use term::DAMPING;
 
@@ -40,6 +42,8 @@ pub enum Rule {
 #[derive(Debug, Clone)]
 pub struct Study {
     base: Case,
+    /// Digest of the case and its conditions.
+    identity: String,
     conditions: Vec<Option<Condition>>,
     parameters: Vec<Parameter>,
     variables: Vec<Variable>,
@@ -61,6 +65,7 @@ impl Study {
         let further = conditions.iter().cloned().map(Some);
         Self {
             base: base.clone(),
+            identity: identity(base, conditions),
             conditions: std::iter::once(None).chain(further).collect(),
             parameters: Vec::new(),
             variables: Vec::new(),
@@ -227,6 +232,12 @@ impl Study {
         study
     }
 
+    /// Whether a piece counts in its term.
+    pub fn counts(&self, index: usize) -> bool {
+        let only = self.terms[self.term_of(index)].only;
+        only.is_none_or(|only| only.contains(&(index % PIECES)))
+    }
+
     /// Its terms.
     pub fn terms(&self) -> &[Term] {
         &self.terms
@@ -261,9 +272,13 @@ impl Study {
 
     /// The nominal case of the design at scaled coordinates `x`.
     pub fn design(&self, x: &[f64]) -> Case {
+        self.with_values(&self.values(x))
+    }
+
+    /// Values of the variables at scaled coordinates `x`, SI.
+    fn values(&self, x: &[f64]) -> Vec<f64> {
         let pairs = self.variables.iter().zip(x);
-        let values: Vec<f64> = pairs.map(|(variable, x)| variable.value(*x)).collect();
-        self.with_values(&values)
+        pairs.map(|(variable, x)| variable.value(*x)).collect()
     }
 
     /// The nominal case with such values of the parameters that vary, SI.
@@ -364,4 +379,15 @@ impl Study {
             (Scale::Logarithmic, Sense::AtMost) => origin * worse.exp(),
         })
     }
+}
+
+/// Digest of every value of a case and of its conditions.
+fn identity(base: &Case, conditions: &[Condition]) -> String {
+    let conditions: Vec<_> = conditions
+        .iter()
+        .map(|condition| (&condition.name, &condition.values, &condition.track))
+        .collect();
+    // Plain data with names of its own: writing it cannot fail.
+    let bytes = serde_json::to_vec(&(base, conditions)).unwrap_or_default();
+    format!("{:x}", Sha256::digest(&bytes))
 }

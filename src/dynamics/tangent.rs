@@ -111,16 +111,6 @@ impl SystemTangent {
 }
 
 impl ForcedTangent {
-    /// Of a model that stays as it is, with so many outputs.
-    pub fn zero(outputs: usize) -> Self {
-        Self {
-            system: SystemTangent {
-                entries: Vec::new(),
-            },
-            outputs: vec![None; outputs],
-        }
-    }
-
     /// Weighted sum of models of one structure, with weights that add up to zero.
     pub fn of(models: &[(f64, &ForcedModel)]) -> Self {
         let systems: Vec<(f64, &LinearSystem)> = models

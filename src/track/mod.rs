@@ -12,9 +12,11 @@ pub use curve::{
 pub use fra::{CORNER_WAVENUMBER, FRA_CLASSES};
 pub use spectrum::Spectrum;
 
+use serde::Serialize;
+
 /// Irregularities of a tangent track: three independent stationary processes, each given by its
 /// one-sided spectral density in wavenumber.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Track {
     /// Name in the spec and in results.
     pub name: String,

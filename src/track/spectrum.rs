@@ -1,7 +1,9 @@
 //! Spectral densities of track irregularities in wavenumber.
 
+use serde::Serialize;
+
 /// One-sided spectral density S(Ω) for Ω > 0, m²/(rad/m): the mean square is ∫₀^∞ S dΩ.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub enum Spectrum {
     /// ```math
     /// S(Ω) = gain · Ω^{2p} / ∏ (Ω² + Ω_i²)

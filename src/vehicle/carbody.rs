@@ -1,7 +1,9 @@
 //! Carbody: a rigid body with its first bending and two torsion modes (3.4.3).
 
+use serde::Serialize;
+
 /// Carbody, SI units; subscript c in the report.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Carbody {
     /// M_c, kg.
     pub mass: f64,
@@ -26,7 +28,7 @@ pub struct Carbody {
 }
 
 /// A flexible mode of the carbody, seen only by the vertical model.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FlexibleMode {
     /// Natural frequency, Hz.
     pub frequency: f64,

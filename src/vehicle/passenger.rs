@@ -1,7 +1,9 @@
 //! Where the passengers sit whose ride is computed.
 
+use serde::Serialize;
+
 /// Passenger points: the carbody c.g. and one point near either end.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Passenger {
     /// p_x, distance of the end points ahead of and behind the c.g., m.
     pub longitudinal_offset: f64,

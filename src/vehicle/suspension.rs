@@ -1,10 +1,12 @@
 //! Primary and secondary suspension, constants per element.
 
+use serde::Serialize;
+
 /// Ratio of a primary (or yaw) damping to its stiffness where none is given, s (Table 4.1.1).
 pub const DAMPING_PER_STIFFNESS: f64 = 1.0 / 250.0;
 
 /// Both stages of the suspension.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Suspension {
     /// Between wheelsets and truck frames.
     pub primary: Primary,
@@ -13,7 +15,7 @@ pub struct Suspension {
 }
 
 /// Primary suspension, per corner (4 per truck).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Primary {
     /// K_px, N/m.
     pub longitudinal_stiffness: f64,
@@ -47,7 +49,7 @@ impl Primary {
 }
 
 /// Secondary suspension: per side (2 per truck), yaw per truck.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Secondary {
     /// K_sy, N/m.
     pub lateral_stiffness: f64,
@@ -96,7 +98,7 @@ impl Secondary {
 ///        └────────┴──────┘
 ///            truck frame
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct AirSpring {
     /// Direct spring (change of effective area, or a parallel coil), N/m.
     pub direct_stiffness: f64,

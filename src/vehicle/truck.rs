@@ -1,7 +1,9 @@
 //! Truck frame with the geometry of the springs above and below it.
 
+use serde::Serialize;
+
 /// Truck frame, SI units; subscript t in the report.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Truck {
     /// M_t, frame mass, kg.
     pub mass: f64,

@@ -1,7 +1,9 @@
 //! Wheelset: two profiled wheels on a rigid axle.
 
+use serde::Serialize;
+
 /// Wheelset, SI units; subscript w in the report.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Wheelset {
     /// M_w, kg.
     pub mass: f64,

@@ -5,9 +5,11 @@ mod table;
 pub(crate) use table::rows_around;
 pub use table::{CONICITY_MAX, PROFILES};
 
+use serde::Serialize;
+
 /// The wheel–rail pair as a spec describes it. `None` takes the coefficient from the report's
 /// table for the conicity.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct WheelRail {
     /// λ, wheel conicity.
     pub conicity: f64,

@@ -14,7 +14,7 @@ use crate::{
         follow,
         problem::{Failure, Piece},
     },
-    parameter::{Parameter, TradeOff},
+    parameter::Parameter,
     vehicle::GRAVITY,
 };
 
@@ -33,9 +33,21 @@ impl Vertical<'_> {
         let Some(constants) = self.constants else {
             return Ok(found);
         };
+        let of_model = index == Index::FlexibleModeSeparation;
+        let moves: Vec<bool> = match self.model {
+            Some((_, _, ref tangents)) if of_model => tangents
+                .iter()
+                .map(|t| !t.system.entries.is_empty())
+                .collect(),
+            _ => vec![true; constants.len()],
+        };
         let by: Vec<Option<Vec<f64>>> = constants
             .parameters()
-            .map(|constant| derivative(index, self.case, &found, constant))
+            .zip(moves)
+            .map(|(constant, moves)| match moves {
+                true => derivative(index, self.case, &found, constant),
+                false => Some(vec![0.0; found.len()]),
+            })
             .collect();
         for (k, piece) in found.iter_mut().enumerate() {
             piece.gradient = by.iter().map(|slopes| Some(slopes.as_ref()?[k])).collect();
@@ -78,9 +90,6 @@ fn flexible_modes(model: &VerticalModel, poles: &Poles) -> Result<Vec<Piece>, Fa
 
 /// Derivatives of pieces found by a constant. `None` where they cannot be followed.
 fn derivative(index: Index, case: &Case, found: &[Piece], constant: Parameter) -> Option<Vec<f64>> {
-    if index == Index::FlexibleModeSeparation && constant.trade_off() != TradeOff::Vertical {
-        return Some(vec![0.0; found.len()]);
-    }
     let value = constant.get(case);
     let step = STEP * if value == 0.0 { 1.0 } else { value };
     let at = |k: f64| {

@@ -1,7 +1,9 @@
 //! From derivatives by the constants of Table 4.1.1 to gradients over a study's variables.
 
 use super::Study;
-use crate::{evaluate::gradients::five_point, optimize::problem::Scale, parameter::Parameter};
+use crate::{
+    case::Case, evaluate::gradients::five_point, optimize::problem::Scale, parameter::Parameter,
+};
 
 /// How the constants of a case follow the variables at a design.
 pub(super) struct Chain {
@@ -21,12 +23,23 @@ const STEP: f64 = 1e-3;
 /// A relative change over the whole range below this is rounding.
 const ROUNDING: f64 = 1e-10;
 
+/// Whether a case that has been moved is another one with its constants of Table 4.1.1.
+fn follows_from_the_ten(case: &Case, moved: &Case) -> bool {
+    let mut set = case.clone();
+    for constant in Parameter::TEN {
+        constant.set(&mut set, constant.get(moved));
+    }
+    set == *moved
+}
+
 impl Chain {
-    /// At scaled coordinates `x`, in a condition.
-    pub fn new(study: &Study, x: &[f64], condition: usize) -> Self {
+    /// At scaled coordinates `x`, in a condition. `None` if a variable changes anything but the
+    /// constants of Table 4.1.1: derivatives by these are then not the whole.
+    pub fn new(study: &Study, x: &[f64], condition: usize) -> Option<Self> {
         let count = study.parameters.len();
-        let pairs = study.variables.iter().zip(x).take(count);
-        let values: Vec<f64> = pairs.map(|(variable, x)| variable.value(*x)).collect();
+        let mut values = study.values(x);
+        values.truncate(count);
+        let case = study.in_condition(&study.with_values(&values), condition);
         let mut by_parameters = vec![vec![0.0; count]; Parameter::TEN.len()];
         for (i, variable) in study.variables.iter().take(count).enumerate() {
             let [low, high] = variable.bounds;
@@ -41,10 +54,16 @@ impl Chain {
             let at = |k: f64| {
                 let mut moved = values.clone();
                 moved[i] += k * step;
-                let case = study.in_condition(&study.with_values(&moved), condition);
-                Parameter::TEN.map(|constant| constant.get(&case))
+                study.in_condition(&study.with_values(&moved), condition)
             };
             let around = [-2.0, -1.0, 1.0, 2.0].map(at);
+            if !around
+                .iter()
+                .all(|moved| follows_from_the_ten(&case, moved))
+            {
+                return None;
+            }
+            let around = around.map(|case| Parameter::TEN.map(|constant| constant.get(&case)));
             let slope = variable.slope(values[i]);
             for (k, by) in by_parameters.iter_mut().enumerate() {
                 let at = around.map(|constants| constants[k]);
@@ -60,12 +79,12 @@ impl Chain {
             let variable = &study.variables[count];
             variable.slope(variable.value(x[count]))
         });
-        Self {
+        Some(Self {
             constants: moving.iter().map(|k| Parameter::TEN[*k]).collect(),
             by_parameters: moving.iter().map(|k| by_parameters[*k].clone()).collect(),
             count,
             speed,
-        }
+        })
     }
 
     /// Gradient over the variables of what has such derivatives by the constants, and behind them

@@ -1,5 +1,7 @@
 //! A study in the terms of the optimiser.
 
+use sha2::{Digest, Sha256};
+
 use super::{
     AMPLE, PIECES, SPEED, Study,
     chain::Chain,
@@ -8,7 +10,6 @@ use super::{
 use crate::{
     design::measure::{Wanted, measure, measure_graded},
     optimize::problem::{Detail, FEASIBLE, Failure, Key, Piece, Problem, Values, Variable},
-    parameter::Parameter,
 };
 
 impl Problem for Study {
@@ -34,12 +35,15 @@ impl Problem for Study {
                 None => t.wanted.to_string(),
             })
             .collect();
-        let case = self.design(x);
-        let mut at = Parameter::TEN.map(|p| p.get(&case)).to_vec();
-        at.extend(self.speed(x));
+        // A design follows from the case, the rules, and the values of the variables.
+        let follows = format!("{} {:?} {:?}", self.identity, self.parameters, self.rules);
         Key {
-            what: format!("{lifted}{}", what.join(" ")),
-            at,
+            what: format!(
+                "{lifted}{} of {:x}",
+                what.join(" "),
+                Sha256::digest(follows.as_bytes())
+            ),
+            at: self.values(x),
         }
     }
 
@@ -70,7 +74,7 @@ impl Problem for Study {
             let case = self.in_condition(&case, condition);
             let chain = match detail {
                 Detail::Values => None,
-                Detail::Gradients => Some(Chain::new(self, x, condition)),
+                Detail::Gradients => Chain::new(self, x, condition),
             };
             let all = match &chain {
                 None => measure(&case, &wanted)?,
@@ -108,10 +112,7 @@ impl Problem for Study {
         };
         for piece in measured {
             let term = &self.terms[self.term_of(piece.index)];
-            if term
-                .only
-                .is_some_and(|only| !only.contains(&(piece.index % PIECES)))
-            {
+            if !self.counts(piece.index) {
                 continue;
             }
             let damping =

@@ -17,7 +17,7 @@ mod stencil;
 use crate::{
     case::Case,
     dynamics::{ForcedModel, ForcedTangent, LateralModel, VerticalModel},
-    parameter::{Parameter, TradeOff},
+    parameter::Parameter,
 };
 use stencil::Stencil;
 
@@ -58,26 +58,16 @@ impl Constants {
 
     /// Derivatives of the lateral model.
     pub fn lateral(&self, model: &LateralModel) -> Vec<ForcedTangent> {
-        let acts = |constant| constant != Parameter::SecondaryYawBreakawayTorque;
-        self.of(&model.forced, acts, |case| LateralModel::new(case).forced)
+        self.of(&model.forced, |case| LateralModel::new(case).forced)
     }
 
     /// Derivatives of the vertical model.
     pub fn vertical(&self, model: &VerticalModel) -> Vec<ForcedTangent> {
-        let acts = |constant: Parameter| constant.trade_off() == TradeOff::Vertical;
-        self.of(&model.forced, acts, |case| VerticalModel::new(case).forced)
+        self.of(&model.forced, |case| VerticalModel::new(case).forced)
     }
 
-    fn of(
-        &self,
-        own: &ForcedModel,
-        acts: impl Fn(Parameter) -> bool,
-        model: impl Fn(&Case) -> ForcedModel,
-    ) -> Vec<ForcedTangent> {
-        let tangent = |(constant, stencil): &(Parameter, Stencil)| {
-            if !acts(*constant) {
-                return ForcedTangent::zero(own.outputs.len());
-            }
+    fn of(&self, own: &ForcedModel, model: impl Fn(&Case) -> ForcedModel) -> Vec<ForcedTangent> {
+        let tangent = |(_, stencil): &(Parameter, Stencil)| {
             let others = stencil.others(&model);
             let mut models = vec![(stencil.own(), own)];
             models.extend(others.iter().map(|(weight, model)| (*weight, model)));
