@@ -269,6 +269,30 @@ pub struct Demand {
     pub bound: f64,
 }
 
+/// Shortfall within which a bound counts as kept: relative, or absolute for damping ratios. It is
+/// what an engineer would see, and leaves room for the accuracy of a search.
+pub const MET: f64 = 1e-4;
+
+impl Demand {
+    /// How far a value, SI, falls short of the bound: relative to it, or as it is for damping
+    /// ratios; negative with room to spare.
+    pub fn shortfall(&self, reached: f64) -> f64 {
+        let short = match self.index.sense() {
+            Sense::AtLeast => self.bound - reached,
+            Sense::AtMost => reached - self.bound,
+        };
+        match self.index.scale() {
+            Scale::Logarithmic => short / self.bound,
+            Scale::Linear => short,
+        }
+    }
+
+    /// Whether a value, SI, keeps the bound within [`MET`].
+    pub fn met_by(&self, reached: f64) -> bool {
+        self.shortfall(reached) <= MET
+    }
+}
+
 /// Requirements and limits: a bound for every index of which something is asked.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Demands(Vec<Demand>);

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use bogie::{
     case::Case,
-    design::{search, search::shortfall, study::Study},
+    design::{compromise::shortfall, search, study::Study},
     dynamics::LateralModel,
     evaluate::{Evaluation, critical_speed::Stability, curving::CurvingLimits},
     index,
@@ -368,6 +368,7 @@ fn validation_table() -> String {
             Status::Stalled => "stalled",
             Status::Infeasible => "out of reach",
             Status::BudgetSpent | Status::Interrupted => "ended early",
+            Status::Failed(_) => "not evaluated",
         };
         let _ = writeln!(
             text,

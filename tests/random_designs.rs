@@ -8,9 +8,9 @@ use std::fmt::Write;
 use bogie::{
     case::Case,
     design::{
+        compromise::shortfall,
         margin::{margins, value},
         search,
-        search::shortfall,
         study::{Role, Rule, Study},
     },
     index::{Demands, Index, Sense},

@@ -14,7 +14,6 @@ use bogie::{
     optimize::{
         archive::Archive,
         journal::{Entry, Header, Journal, JournalError},
-        solve::NoDesign,
     },
     spec::FRONT_POINTS,
 };
@@ -57,10 +56,6 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
             "error: {}: {error}",
             call.run.source.spec.display()
         )),
-        error @ DesignError::NothingEvaluated {
-            reason: NoDesign::Failed(_),
-            ..
-        } => nothing_evaluated(&error),
         error => failed(error),
     })?;
     let warnings = warnings(&result.case, &result.evaluation);
@@ -128,11 +123,13 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
     let front = pareto::pareto(&spec, &archive);
     progress.finish();
     tell(&archive);
-    let front = front.map_err(|error| match error {
-        NoDesign::Failed(_) => nothing_evaluated(&error),
-        NoDesign::Stopped(_) => failed(error),
-    })?;
-    if front.points.is_empty() && front.stopped.is_none() {
+    if let Some(failure) = front.failure {
+        output::say(format_args!(
+            "no design within the bounds could be evaluated ({failure}): there is no front; `bogie \
+             evaluate` says more of the vehicle as given, `bogie sweep` of others within the bounds of \
+             [design]"
+        ));
+    } else if front.points.is_empty() && front.stopped.is_none() {
         output::say("no design keeps the remaining requirements and limits: there is no front");
     }
     deliver_table(
@@ -149,14 +146,6 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
     } else {
         Done::Complete
     })
-}
-
-/// Every design within the bounds is without a result.
-fn nothing_evaluated(error: &dyn std::fmt::Display) -> Failure {
-    failed(format_args!(
-        "{error}; `bogie evaluate` says more of the vehicle as given, `bogie sweep` of others within \
-         the bounds of [design]"
-    ))
 }
 
 pub(super) fn indices(names: &[String]) -> Result<Vec<Index>, Failure> {

@@ -144,7 +144,10 @@ pub fn front(spec: &Spec, archive: &Archive) -> Option<Front> {
     if !spec.front.asked || spec.design.parameters.is_empty() {
         return None;
     }
-    pareto::pareto(spec, archive)
-        .inspect_err(|error| output::say(format_args!("warning: no front: {error}")))
-        .ok()
+    let front = pareto::pareto(spec, archive);
+    if let Some(failure) = front.failure {
+        output::say(format_args!("warning: no front: {failure}"));
+        return None;
+    }
+    Some(front)
 }

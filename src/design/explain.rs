@@ -1,14 +1,17 @@
 //! A solved study in an engineer's terms: what holds the design back, at what price, and what the
 //! design is sensitive to.
 
-use super::study::{Role, Study};
+use super::{
+    search::Searched,
+    study::{Role, Study},
+};
 use crate::{
-    index::{Index, Sense},
+    index::Index,
     optimize::{
         certificate::{Certificate, Curvature, HOLDS},
         local::Status,
-        problem::{Piece, Problem, Scale, Values, Variable},
-        solve::{Effort, Solved},
+        problem::{Detail, Problem, Scale, Values, Variable, largest},
+        solve::Effort,
     },
     parameter::Parameter,
 };
@@ -26,9 +29,9 @@ pub struct Chosen {
     pub at_bound: Option<Bound>,
     /// Relative gain of the objective per relative move outwards of the bound that it lies on.
     pub bound_price: f64,
-    /// Relative change of the objective per relative change of the value: as it is, whatever
-    /// limits it would break.
-    pub elasticity: f64,
+    /// Change of the scaled objective per relative increase of the value: as it is, whatever limits
+    /// it would break. `None` where it is not known.
+    pub elasticity: Option<f64>,
 }
 
 /// An end of a variable's range.
@@ -49,12 +52,25 @@ pub struct Price {
     pub condition: Option<String>,
     /// The bound, SI.
     pub bound: f64,
-    /// Multiplier of the scaled constraint.
+    /// Change of the objective, scaled, per relative change of the bound; for damping ratios per
+    /// change of [`DAMPING`] times the ratio, as they are scaled.
     pub multiplier: f64,
     /// Change of the objective, scaled, per SI unit of the bound.
     pub per_unit: f64,
-    /// Elasticities of the index with respect to the variables.
+    /// Relative change of the index at the bound per relative change of each variable; infinite or
+    /// undefined where the bound is zero or the index jumps.
     pub elasticities: Vec<f64>,
+}
+
+/// The single index behind an objective.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Objective {
+    /// Which.
+    pub index: Index,
+    /// Its value, SI.
+    pub value: f64,
+    /// Its change, SI, with that of the scaled objective.
+    pub per_merit: f64,
 }
 
 /// A solved study explained.
@@ -62,8 +78,8 @@ pub struct Price {
 pub struct Explained {
     /// What was made as good as can be.
     pub goal: String,
-    /// The objective's index where it is a single one, and its value, SI.
-    pub objective: Option<(Index, f64)>,
+    /// The objective's index where it is a single one.
+    pub objective: Option<Objective>,
     /// Σ of the scaled objectives.
     pub merit: f64,
     /// What was chosen.
@@ -89,7 +105,8 @@ const ACTIVE: f64 = 1e-3;
 
 impl Explained {
     /// Explains a solved study whose goal in words is `goal`.
-    pub fn new(study: &Study, solved: &Solved, goal: String) -> Self {
+    pub fn new(searched: &Searched, goal: String) -> Self {
+        let Searched { study, solved, .. } = searched;
         let x = &solved.point.x;
         let values = solved.point.values.as_ref().ok();
         let certificate = solved.certificate.as_ref();
@@ -101,12 +118,12 @@ impl Explained {
             status: solved.status,
             kkt_residual: certificate.map(|c| c.kkt_residual),
             curvature: certificate.and_then(|c| c.curvature),
-            violation: values.map_or(f64::NAN, Values::violation),
+            violation: values.map_or(f64::NAN, |v| v.violation().max(searched.violation())),
             active: Vec::new(),
             prices: Vec::new(),
             effort: solved.effort.clone(),
         };
-        let slopes = certificate.map(|c| objective_slopes(c, x.len()));
+        let slopes = objective_slopes(study, x);
         let pairs = study.variables().iter().zip(study.parameters());
         for (i, (variable, &parameter)) in pairs.enumerate() {
             let value = variable.value(x[i]);
@@ -129,7 +146,7 @@ impl Explained {
                 } else {
                     0.0
                 },
-                elasticity: slopes.as_ref().map_or(0.0, |s| s[i] * relative),
+                elasticity: slopes.as_ref().map(|slopes| slopes[i] * relative),
             });
         }
         if let Some(values) = values {
@@ -138,31 +155,34 @@ impl Explained {
             if let Some(certificate) = certificate
                 && solved.point.feasible()
             {
-                explained.prices = prices(study, x, values, certificate);
+                explained.prices = prices(searched, values, certificate);
             }
         }
         explained
     }
 
-    /// Relative change of the objective's index per relative change of a variable, whatever limits
-    /// that would break; of several objectives, the gain of their sum.
-    pub fn gain_per_share(&self, chosen: &Chosen) -> f64 {
-        match self.objective {
-            Some((index, _)) if index.sense() == Sense::AtMost => chosen.elasticity,
-            _ => -chosen.elasticity,
-        }
+    /// Relative change of the objective's index per relative increase of a variable, whatever limits
+    /// that would break; of several objectives, the gain of their sum. `None` where it is not known.
+    pub fn gain_per_share(&self, chosen: &Chosen) -> Option<f64> {
+        let elasticity = chosen.elasticity?;
+        Some(match self.objective {
+            Some(objective) => objective.per_merit * elasticity / objective.value,
+            None => -elasticity,
+        })
     }
 
     /// Change of the objective, in SI of its index or as a share, per SI unit of a demand's bound.
     pub fn price(&self, price: &Price) -> f64 {
-        match self.objective {
-            // f = ± ln v.
-            Some((index, value)) => match index.sense() {
-                Sense::AtLeast => -value * price.per_unit,
-                Sense::AtMost => value * price.per_unit,
-            },
-            None => price.per_unit,
-        }
+        self.objective.map_or(1.0, |o| o.per_merit) * price.per_unit
+    }
+
+    /// Relative gain of the objective's index, or gain of the sum, per relative move of a bound of
+    /// `[design]` outwards.
+    pub fn bound_gain(&self, chosen: &Chosen) -> f64 {
+        let share = self
+            .objective
+            .map_or(1.0, |o| (o.per_merit / o.value).abs());
+        share * chosen.bound_price
     }
 }
 
@@ -175,25 +195,33 @@ fn relative(variable: &Variable, value: f64) -> f64 {
     }
 }
 
-/// ∇f by the multipliers of its pieces.
-fn objective_slopes(certificate: &Certificate, n: usize) -> Vec<f64> {
+/// Pieces this close to the largest decide with it which way the objective goes.
+const TIED: f64 = 1e-6;
+
+/// Change of the objective with each scaled coordinate as that increases: of the pieces that are
+/// largest together, that of the one that gets worst. The critical speed counts as itself, whether
+/// or not the study is lifted. `None` where gradients are not known.
+fn objective_slopes(study: &Study, x: &[f64]) -> Option<Vec<f64>> {
+    let study = study.grounded();
+    let n = study.variables().len();
+    let measured = study.measure(&x[..n], Detail::Gradients).ok()?;
     let mut slopes = vec![0.0; n];
-    let groups = certificate
-        .objective_gradients
-        .iter()
-        .zip(&certificate.objective_multipliers);
-    for (gradients, multipliers) in groups {
-        for (gradient, multiplier) in gradients.iter().zip(multipliers) {
-            for (slope, g) in slopes.iter_mut().zip(gradient) {
-                *slope += multiplier * g;
-            }
+    for pieces in study.judge(&measured).objectives {
+        let worst = largest(&pieces);
+        let tied = pieces.iter().filter(|piece| piece.value >= worst - TIED);
+        let gradients: Vec<&Vec<f64>> = tied
+            .map(|piece| piece.gradient.as_ref())
+            .collect::<Option<_>>()?;
+        for (i, slope) in slopes.iter_mut().enumerate() {
+            let along = gradients.iter().map(|gradient| gradient[i]);
+            *slope += along.fold(f64::NEG_INFINITY, f64::max);
         }
     }
-    slopes
+    Some(slopes)
 }
 
-/// The index behind the objective, if all of its pieces are of one, and its value.
-fn single_objective(study: &Study, values: &Values) -> Option<(Index, f64)> {
+/// The index behind the objective, if all of its pieces are of one.
+fn single_objective(study: &Study, values: &Values) -> Option<Objective> {
     let [pieces] = &values.objectives[..] else {
         return None;
     };
@@ -202,8 +230,12 @@ fn single_objective(study: &Study, values: &Values) -> Option<(Index, f64)> {
     let same = pieces
         .iter()
         .all(|p| study.terms()[study.term_of(p.index)].index == term.index);
-    let value = study.index_at(term, worst.value)?;
-    same.then_some((term.index, value))
+    let [value, per_merit] = study.index_at(term, worst.value)?;
+    same.then_some(Objective {
+        index: term.index,
+        value,
+        per_merit,
+    })
 }
 
 /// Names of the active pieces, each once with all of its conditions, as in "critical speed
@@ -237,7 +269,9 @@ fn active(study: &Study, values: &Values) -> Vec<String> {
     active.into_iter().map(written).collect()
 }
 
-fn prices(study: &Study, x: &[f64], values: &Values, certificate: &Certificate) -> Vec<Price> {
+fn prices(searched: &Searched, values: &Values, certificate: &Certificate) -> Vec<Price> {
+    let Searched { study, solved, .. } = searched;
+    let x = &solved.point.x;
     let mut prices: Vec<Price> = Vec::new();
     let held = values
         .constraints
@@ -252,13 +286,27 @@ fn prices(study: &Study, x: &[f64], values: &Values, certificate: &Certificate) 
         let Role::Constraint { bound } = term.role else {
             continue;
         };
+        let condition = study.condition_name(term.condition).map(str::to_owned);
+        // The bound of a missed demand is none that was asked for.
+        let is_missed = |m: &super::compromise::Missed| {
+            m.index == term.index && m.condition == condition && !m.met()
+        };
+        if searched.missed.iter().any(is_missed) {
+            continue;
+        }
         // An evaluation that fails beside the design tells no price.
         let slope = study.slope_of_bound(piece, x).unwrap_or(f64::NAN);
         let per_unit = multiplier * slope;
-        let condition = study.condition_name(term.condition).map(str::to_owned);
+        // The critical speed is kept by a damping ratio: its price is that of the speed.
+        let multiplier = match term.index {
+            Index::CriticalSpeed => per_unit * bound,
+            _ => multiplier,
+        };
         let pairs = study.variables().iter().zip(x).zip(gradient);
+        // c(v, bound) = 0 gives dv = −∂c/∂x dx / (∂c/∂bound).
         let elasticities: Vec<f64> = pairs
-            .map(|((variable, &x), g)| g * relative(variable, variable.value(x)))
+            .map(|((variable, &x), g)| -g / slope * relative(variable, variable.value(x)) / bound)
+            .take(study.parameters().len())
             .collect();
         let known = prices
             .iter_mut()
@@ -278,13 +326,4 @@ fn prices(study: &Study, x: &[f64], values: &Values, certificate: &Certificate) 
         }
     }
     prices
-}
-
-/// The worst value of an index among its pieces.
-pub fn worst(index: Index, pieces: &[Piece]) -> Option<f64> {
-    let values = pieces.iter().map(|p| p.value);
-    match index.sense() {
-        Sense::AtLeast => values.min_by(f64::total_cmp),
-        Sense::AtMost => values.max_by(f64::total_cmp),
-    }
 }

@@ -1,13 +1,9 @@
 //! How a design stands to what is asked of it, in every condition.
 
-use super::{
-    explain::worst,
-    measure::{Wanted, measure},
-    search::falls_short,
-};
+use super::measure::{Wanted, measure, worst};
 use crate::{
     case::Case,
-    index::{Demands, Index, Sense},
+    index::{Demand, Demands, Index, Sense},
     optimize::problem::Failure,
     spec::Condition,
 };
@@ -26,11 +22,28 @@ pub struct Margin {
 }
 
 impl Margin {
-    /// Whether the demand is met, but for a ten-thousandth.
+    fn demand(&self) -> Demand {
+        Demand {
+            index: self.index,
+            bound: self.required,
+        }
+    }
+
+    /// Whether the demand is met.
     pub fn met(&self) -> bool {
         self.reached
             .as_ref()
-            .is_ok_and(|reached| !falls_short(self.index, self.required, *reached))
+            .is_ok_and(|reached| self.demand().met_by(*reached))
+    }
+
+    /// How far the value reached falls short of the bound, relative, or as it is for damping ratios;
+    /// 0 if the demand is met, infinite if it has no value.
+    pub fn shortfall(&self) -> f64 {
+        match &self.reached {
+            Ok(_) if self.met() => 0.0,
+            Ok(reached) => self.demand().shortfall(*reached),
+            Err(_) => f64::INFINITY,
+        }
     }
 
     /// Path of the demand in the spec.

@@ -5,14 +5,17 @@
 //! runs the report's trade-offs and the joint optimisation, [`conflict`] tells which demands stand
 //! against one another where they cannot all be met. A [`sweep`] measures many designs without a search.
 
+pub mod compromise;
 pub mod conflict;
 pub mod explain;
 pub mod form;
+mod lifted;
 pub mod margin;
 pub mod measure;
 pub mod outcome;
 pub mod pareto;
 pub mod procedure;
+mod recovery;
 pub mod search;
 pub mod sensitivity;
 pub mod sequence;
@@ -20,5 +23,6 @@ mod stage;
 pub mod study;
 pub mod sweep;
 pub mod tasks;
+mod unused;
 
 pub use search::search;

@@ -11,7 +11,7 @@ use crate::{
     evaluate::Evaluation,
     index::Index,
     optimize::{archive::Stop, local::Status, problem::Failure, solve::Effort},
-    parameter::TradeOff,
+    parameter::{Parameter, TradeOff},
     spec::Spec,
 };
 
@@ -22,10 +22,22 @@ pub struct StageResult {
     pub trade_off: Option<TradeOff>,
     /// The solution explained.
     pub explained: Explained,
+    /// Open parameters that no index of the trade-off depends on: they keep the value as given.
+    pub unused: Vec<Parameter>,
     /// Profiles tried.
     pub profiles: Vec<Profile>,
     /// Conicities of profiles that had no hope to do better and were not pursued.
     pub given_up: Vec<f64>,
+}
+
+impl StageResult {
+    /// Why no design could be evaluated, if none could.
+    pub fn failure(&self) -> Option<Failure> {
+        match self.explained.status {
+            Status::Failed(failure) => Some(failure),
+            _ => None,
+        }
+    }
 }
 
 /// The best that one of several wheel profiles allows.
@@ -43,9 +55,9 @@ pub struct Profile {
     pub bending_stiffness: f64,
     /// K_py, N/m.
     pub lateral_stiffness: f64,
-    /// Its design in scaled coordinates, from which a later round goes on.
-    pub(super) x: Vec<f64>,
-    /// Value of the objective, or of the shortfall, by which profiles are ranked.
+    /// Its design, from which a later round goes on.
+    pub(super) case: Case,
+    /// Class, and the objective or the violation, by which profiles are ranked.
     pub(super) rank: (u8, f64),
 }
 
@@ -104,6 +116,16 @@ pub(super) fn half_kalker(case: &Case) -> Result<Evaluation, EigenError> {
     Evaluation::new(&half)
 }
 
+/// Which of the designs found is delivered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Delivered {
+    /// That of the trade-offs in turn.
+    InTurn,
+    /// That of all parameters at once: asked for, or because in turn demands are missed that it
+    /// meets or comes closer to.
+    AllAtOnce,
+}
+
 /// A finished design.
 #[derive(Debug, Clone)]
 pub struct DesignResult {
@@ -117,6 +139,8 @@ pub struct DesignResult {
     pub half_kalker: Evaluation,
     /// Its performance in the further conditions.
     pub conditions: Vec<InCondition>,
+    /// Which of the designs found it is.
+    pub delivered: Delivered,
     /// The trade-offs in the order of the procedure, or all at once.
     pub stages: Vec<StageResult>,
     /// Rounds of the coupling loop; 0 for all at once.
@@ -150,6 +174,7 @@ impl DesignResult {
             margins: margins(&spec.case, &spec.demands, &spec.conditions),
             case: spec.case.clone(),
             evaluation,
+            delivered: Delivered::InTurn,
             stages: Vec::new(),
             rounds: 0,
             settled: true,
@@ -160,13 +185,34 @@ impl DesignResult {
         })
     }
 
+    /// Whether the trade-offs in turn miss what the delivered design, all at once, meets or comes
+    /// closer to.
+    pub fn joint_in_place_of_sequence(&self) -> bool {
+        self.delivered == Delivered::AllAtOnce && self.joint.is_some()
+    }
+
+    /// The stages that led to the design delivered.
+    pub fn delivered_stages(&self) -> impl Iterator<Item = &StageResult> {
+        let joint = self
+            .joint
+            .as_ref()
+            .filter(|_| self.delivered == Delivered::AllAtOnce);
+        let in_turn = self.stages.iter().filter(move |_| joint.is_none());
+        in_turn.chain(joint.map(|joint| &joint.stage))
+    }
+
+    /// Why a search that led to the design found none with a performance, if one did not.
+    pub fn failure(&self) -> Option<Failure> {
+        self.delivered_stages().find_map(StageResult::failure)
+    }
+
     /// Demands that are not met.
     pub fn unmet(&self) -> impl Iterator<Item = &Margin> {
         self.margins.iter().filter(|m| !m.met())
     }
 
-    /// Whether all demands are met.
+    /// Whether all demands are met, by a design that every search could evaluate.
     pub fn met(&self) -> bool {
-        self.unmet().next().is_none()
+        self.unmet().next().is_none() && self.failure().is_none()
     }
 }

@@ -9,9 +9,10 @@ use std::time::Instant;
 
 use super::{
     conflict::conflict,
-    margin::{margins, worst_value},
-    outcome::{Compared, DesignResult, Joint, StageResult, half_kalker, in_conditions},
-    stage::{self, Brief, Candidate, Stage},
+    margin::{Margin, margins, worst_value},
+    outcome::{Compared, Delivered, DesignResult, Joint, StageResult, half_kalker, in_conditions},
+    search::Searched,
+    stage::{self, Stage, StageInput},
     study::Role,
     tasks::Tasks,
 };
@@ -19,12 +20,11 @@ use crate::{
     case::Case,
     dynamics::EigenError,
     evaluate::Evaluation,
-    index::Index,
+    index::{Index, MET},
     optimize::{
-        archive::Archive,
-        local::Status,
+        archive::{Archive, Stop},
         problem::{Problem, Values},
-        solve::{Effort, NoDesign},
+        solve::Effort,
     },
     parameter::TradeOff,
     spec::{Order, Spec},
@@ -48,30 +48,9 @@ pub enum DesignError {
          [objective]"
     )]
     NoRequirement,
-    /// No design in the range could be evaluated.
-    #[error("{}{reason}", .trade_off.map_or_else(String::new, |t| format!("{t}: ")))]
-    NothingEvaluated {
-        /// Where.
-        trade_off: Option<TradeOff>,
-        /// Why.
-        reason: NoDesign,
-    },
     /// The chosen design could not be evaluated.
     #[error(transparent)]
     Eigen(#[from] EigenError),
-}
-
-impl DesignError {
-    /// Whether the run was ended rather than failed.
-    fn is_stop(&self) -> bool {
-        matches!(
-            self,
-            Self::NothingEvaluated {
-                reason: NoDesign::Stopped(_),
-                ..
-            }
-        )
-    }
 }
 
 /// Designs the suspension of a spec.
@@ -84,8 +63,8 @@ pub fn design(spec: &Spec, archive: &Archive) -> Result<DesignResult, DesignErro
     design_beside(spec, archive, |_| ()).map(|(result, ())| result)
 }
 
-/// As [`design`], with what `beside` makes of the chosen design: where all at once is searched only to
-/// compare, meanwhile.
+/// As [`design`], with the result of `beside` for the delivered design; where all at once is searched
+/// only to compare, both run side by side.
 ///
 /// # Errors
 ///
@@ -118,7 +97,8 @@ pub fn design_beside<T: Send>(
         tasks,
         archive,
     };
-    let (mut result, made) = procedure.run(&open, beside)?;
+    let (chosen, made) = procedure.run(&open, beside);
+    let mut result = procedure.finish(chosen)?;
     result.effort = Effort {
         evaluations: archive.count(),
         failures: archive.failures(),
@@ -135,50 +115,95 @@ struct Procedure<'a> {
     archive: &'a Archive<'a>,
 }
 
+/// The design to be delivered and how it was come to.
+struct Chosen {
+    case: Case,
+    delivered: Delivered,
+    stages: Vec<Stage>,
+    rounds: usize,
+    settled: bool,
+    joint: Option<(Joint, Searched)>,
+}
+
 impl Procedure<'_> {
     fn run<T: Send>(
         &self,
         open: &[TradeOff],
         beside: impl FnOnce(&Case) -> T + Send,
-    ) -> Result<(DesignResult, T), DesignError> {
+    ) -> (Chosen, T) {
         let joint_only = self.spec.design.order == Order::Joint
             || !self.spec.objective.is_empty()
             || self.tasks.entangled();
         if joint_only {
-            let stage = self.stage(&Brief {
-                now: &self.spec.case,
-                trade_off: None,
-                known: None,
-                also: &[],
-                seed: self.spec.design.seed,
-            })?;
-            let made = beside(&stage.case);
-            let result = self.finish(stage.case, vec![stage.result], 0, true, &stage.best, None)?;
-            return Ok((result, made));
+            let chosen = self.joint_only();
+            let made = beside(&chosen.case);
+            return (chosen, made);
         }
-        let (stages, rounds, settled) = self.sequential(open)?;
-        let last = stages.last().expect("something is open");
-        let case = last.case.clone();
-        let compare = open.len() > 1 && self.archive.stopped().is_none();
-        let all_at_once = || compare.then(|| self.joint(&case)).transpose();
-        let (joint, made) = rayon::join(all_at_once, || beside(&case));
-        let joint = match joint {
-            Err(error) if error.is_stop() => None,
-            other => other?,
-        };
-        // The conflict, if there is one, is that of the stage that fell short.
-        let short = stages
-            .iter()
-            .find(|s| s.best.solved.status == Status::Infeasible)
-            .unwrap_or(last);
-        let best = short.best.clone();
-        let results = stages.into_iter().map(|s| s.result).collect();
-        let result = self.finish(case, results, rounds, settled, &best, joint)?;
-        Ok((result, made))
+        let mut chosen = self.sequential(open);
+        let stages = chosen.stages.iter().map(|stage| &stage.result);
+        let in_turn = self.shortfall(&chosen.case, stages);
+        let short = in_turn > 0.0;
+        let compare = (open.len() > 1 || short) && self.archive.stopped().is_none();
+        if !compare {
+            let made = beside(&chosen.case);
+            return (chosen, made);
+        }
+        if !short {
+            let case = chosen.case.clone();
+            let (joint, made) = rayon::join(|| self.joint(&case), || beside(&case));
+            chosen.joint = joint;
+            return (chosen, made);
+        }
+        // In turn something is missed: all at once may meet it.
+        chosen.joint = self.joint(&chosen.case);
+        if let Some((joint, _)) = &chosen.joint
+            && self.shortfall(&joint.case, [&joint.stage]) < in_turn - MET
+        {
+            chosen.case = joint.case.clone();
+            chosen.delivered = Delivered::AllAtOnce;
+        }
+        let made = beside(&chosen.case);
+        (chosen, made)
     }
 
-    /// The report's order: the stages with their last results, and the rounds taken.
-    fn sequential(&self, open: &[TradeOff]) -> Result<(Vec<Stage>, usize, bool), DesignError> {
+    fn margins(&self, case: &Case) -> Vec<Margin> {
+        margins(case, &self.spec.demands, &self.spec.conditions)
+    }
+
+    /// Largest relative shortfall of a design; infinite where a demand has no value, or where one of
+    /// the searches that led to it found no design with a performance.
+    fn shortfall<'r>(&self, case: &Case, stages: impl IntoIterator<Item = &'r StageResult>) -> f64 {
+        if stages.into_iter().any(|stage| stage.failure().is_some()) {
+            return f64::INFINITY;
+        }
+        let margins = self.margins(case);
+        margins.iter().map(Margin::shortfall).fold(0.0, f64::max)
+    }
+
+    fn joint_only(&self) -> Chosen {
+        let stage = self.stage(&StageInput {
+            now: &self.spec.case,
+            trade_off: None,
+            known: None,
+            also: &[],
+            seed: self.spec.design.seed,
+        });
+        let stages: Vec<Stage> = stage.into_iter().collect();
+        Chosen {
+            case: stages
+                .last()
+                .map_or_else(|| self.spec.case.clone(), |stage| stage.case.clone()),
+            delivered: Delivered::AllAtOnce,
+            stages,
+            rounds: 0,
+            settled: true,
+            joint: None,
+        }
+    }
+
+    /// The report's order: the stages with their last results, and the rounds taken. A run that ends
+    /// early keeps what is finished.
+    fn sequential(&self, open: &[TradeOff]) -> Chosen {
         let mut now = self.spec.case.clone();
         let mut stages: Vec<Stage> = Vec::new();
         let coupled: Vec<TradeOff> = open
@@ -186,16 +211,12 @@ impl Procedure<'_> {
             .copied()
             .filter(|t| *t != TradeOff::Vertical)
             .collect();
-        if open.contains(&TradeOff::Vertical) {
-            let stage = self.trade_off(&now, TradeOff::Vertical, None, 0)?;
+        if open.contains(&TradeOff::Vertical)
+            && let Ok(stage) = self.trade_off(&now, TradeOff::Vertical, None, 0)
+        {
             now = stage.case.clone();
             stages.push(stage);
         }
-        // What is finished stays if the run ends before the next trade-off has a design.
-        let ended = |error: &DesignError, stages: &[Stage]| {
-            let stopped = DesignError::is_stop(error);
-            stopped && !stages.is_empty()
-        };
         let mut rounds = 0;
         let mut settled = coupled.is_empty();
         while !settled && rounds < ROUNDS && self.archive.stopped().is_none() {
@@ -205,10 +226,8 @@ impl Procedure<'_> {
                     .iter()
                     .position(|s| s.result.trade_off == Some(*trade_off));
                 let known = at.map(|i| &stages[i].result);
-                let mut stage = match self.trade_off(&now, *trade_off, known, rounds) {
-                    Ok(stage) => stage,
-                    Err(error) if ended(&error, &stages) => break,
-                    Err(error) => return Err(error),
+                let Ok(mut stage) = self.trade_off(&now, *trade_off, known, rounds) else {
+                    break;
                 };
                 moved = moved.max(stage.moved);
                 now = stage.case.clone();
@@ -223,11 +242,14 @@ impl Procedure<'_> {
             rounds += 1;
             settled = moved < UNCHANGED || coupled.len() < 2;
         }
-        // The last stage knows the design as all have left it.
-        if let Some(last) = stages.last_mut() {
-            last.case = now;
+        Chosen {
+            case: now,
+            delivered: Delivered::InTurn,
+            stages,
+            rounds,
+            settled,
+            joint: None,
         }
-        Ok((stages, rounds, settled))
     }
 
     fn trade_off(
@@ -236,10 +258,10 @@ impl Procedure<'_> {
         trade_off: TradeOff,
         known: Option<&StageResult>,
         round: usize,
-    ) -> Result<Stage, DesignError> {
+    ) -> Result<Stage, Stop> {
         self.archive
             .stage(&format!("{trade_off}, round {}", round + 1));
-        self.stage(&Brief {
+        self.stage(&StageInput {
             now,
             trade_off: Some(trade_off),
             known,
@@ -248,22 +270,24 @@ impl Procedure<'_> {
         })
     }
 
-    /// All at once, from the sequential design and from everywhere.
-    fn joint(&self, sequential: &Case) -> Result<Joint, DesignError> {
+    /// All at once, from the sequential design, the one as given, and from everywhere. `None` if the
+    /// run ended before.
+    fn joint(&self, sequential: &Case) -> Option<(Joint, Searched)> {
         self.archive.stage("all at once");
-        let stage = self.stage(&Brief {
-            now: sequential,
-            trade_off: None,
-            known: None,
-            also: std::slice::from_ref(sequential),
-            seed: self.spec.design.seed,
-        })?;
-        let study = &stage.best.study;
+        let stage = self
+            .stage(&StageInput {
+                now: sequential,
+                trade_off: None,
+                known: None,
+                also: &[sequential.clone(), self.spec.case.clone()],
+                seed: self.spec.design.seed,
+            })
+            .ok()?;
         // In the terms of the task, whether or not the solution is lifted.
         let plain = &self.tasks.joint(&stage.case).study;
         let merits = [sequential, &stage.case].map(|case| plain.evaluate(&plain.coordinates(case)));
         let mut indices: Vec<Index> = Vec::new();
-        for term in study.terms() {
+        for term in plain.terms() {
             if matches!(term.role, Role::Objective { .. }) && !indices.contains(&term.index) {
                 indices.push(term.index);
             }
@@ -272,7 +296,7 @@ impl Procedure<'_> {
             Ok(values) => values.objective(),
             Err(_) => f64::NAN,
         };
-        Ok(Joint {
+        let joint = Joint {
             gain: merit(&merits[0]) - merit(&merits[1]),
             indices: indices
                 .into_iter()
@@ -284,61 +308,55 @@ impl Procedure<'_> {
                 .collect(),
             stage: stage.result,
             case: stage.case,
-        })
+        };
+        Some((joint, stage.best.searched))
     }
 
-    fn stage(&self, brief: &Brief) -> Result<Stage, DesignError> {
-        stage::solve(brief, &self.tasks, self.archive)
+    fn stage(&self, input: &StageInput) -> Result<Stage, Stop> {
+        stage::solve(input, &self.tasks, self.archive)
     }
 
-    fn finish(
-        &self,
-        case: Case,
-        mut stages: Vec<StageResult>,
-        rounds: usize,
-        settled: bool,
-        best: &Candidate,
-        joint: Option<Joint>,
-    ) -> Result<DesignResult, DesignError> {
+    fn finish(&self, chosen: Chosen) -> Result<DesignResult, EigenError> {
+        let Chosen {
+            case,
+            delivered,
+            stages,
+            rounds,
+            settled,
+            joint,
+        } = chosen;
+        let spec = self.spec;
+        let evaluation = Evaluation::new(&case)?;
+        let margins = self.margins(&case);
+        // The search with all demands knows which of them conflict.
+        let searched = match (&joint, &stages[..]) {
+            (Some((_, searched)), _) => Some(searched),
+            (None, [only]) => Some(&only.best.searched),
+            _ => None,
+        };
+        let short = margins.iter().any(|margin| !margin.met());
+        let searched = searched.filter(|_| short && self.archive.stopped().is_none());
+        let conflict = searched.and_then(|searched| {
+            self.archive.stage("conflicting requirements");
+            conflict(searched, spec.design.seed, self.archive)
+        });
+        let mut stages: Vec<StageResult> = stages.into_iter().map(|s| s.result).collect();
         for stage in &mut stages {
             if stage.profiles.len() < 2 {
                 stage.profiles.clear();
             }
         }
-        let spec = self.spec;
-        let evaluation = Evaluation::new(&case)?;
-        let margins = margins(&case, &spec.demands, &spec.conditions);
-        let short = margins.iter().any(|m| !m.met());
-        let conflict = if short && best.solved.status == Status::Infeasible {
-            self.archive.stage("conflicting requirements");
-            conflict(
-                &best.study,
-                &best.solved.point.x,
-                spec.design.seed,
-                self.archive,
-            )
-        } else if short && self.archive.stopped().is_none() {
-            // The margins were made as large as can be and are too small: all demands together.
-            let study = self.tasks.bare(&case, &[]);
-            conflict(
-                &study,
-                &study.coordinates(&case),
-                spec.design.seed,
-                self.archive,
-            )
-        } else {
-            None
-        };
         Ok(DesignResult {
             half_kalker: half_kalker(&case)?,
             before: Evaluation::new(&spec.case)?,
             conditions: in_conditions(spec, &case)?,
             evaluation,
             case,
+            delivered,
             stages,
             rounds,
             settled,
-            joint,
+            joint: joint.map(|(joint, _)| joint),
             margins,
             conflict,
             effort: Effort::default(),

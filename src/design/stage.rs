@@ -3,33 +3,33 @@
 use super::{
     explain::Explained,
     outcome::{Profile, StageResult},
-    procedure::DesignError,
     search::{Searched, search},
     study::Study,
     tasks::{Task, Tasks},
+    unused::unused,
 };
 use crate::{
     case::Case,
     evaluate::{critical_speed::Stability, curving::CurvingLimits},
+    index::MET,
     optimize::{
-        archive::Archive,
+        archive::{Archive, Stop},
         local::Status,
-        problem::Failure,
+        problem::{Failure, Point, Values},
         solve::{Effort, NoDesign, Solved, Start},
     },
-    parameter::TradeOff,
+    parameter::{Parameter, TradeOff},
 };
 
 /// Objective behind the best down to which a profile may still win in a later round: 5 %.
 const RACE: f64 = 0.05;
 
 /// A design found for one profile.
-#[derive(Clone)]
 pub struct Candidate {
-    /// The study in whose terms it was found.
-    pub study: Study,
-    /// Its solution.
-    pub solved: Solved,
+    /// The study and its solution.
+    pub searched: Searched,
+    /// Parameters without influence, which keep the value as given.
+    unused: Vec<Parameter>,
     conicity: f64,
 }
 
@@ -45,21 +45,21 @@ pub struct Stage {
     pub best: Candidate,
 }
 
-/// What a stage is to solve, and from where.
-pub struct Brief<'a> {
+/// A task to be solved, and the designs to begin from.
+pub struct StageInput<'a> {
     /// The design at hand.
     pub now: &'a Case,
     /// `None` for all at once.
     pub trade_off: Option<TradeOff>,
-    /// What an earlier round came to: only profiles still in the race are followed.
+    /// The result of an earlier round: only profiles still in the race are followed.
     pub known: Option<&'a StageResult>,
     /// Other designs to begin from.
     pub also: &'a [Case],
-    /// Seed of searches everywhere.
+    /// Seed of the global search.
     pub seed: u64,
 }
 
-impl Brief<'_> {
+impl StageInput<'_> {
     fn choices(&self, tasks: &Tasks) -> Vec<f64> {
         let chooses = matches!(self.trade_off, None | Some(TradeOff::StabilityCurving));
         match (chooses, self.known) {
@@ -76,17 +76,27 @@ impl Brief<'_> {
         }
     }
 
-    /// The study of a profile and where its search begins, when another has reached `beat`.
-    fn begin(&self, tasks: &Tasks, conicity: f64, beat: f64) -> (Study, Start) {
+    /// The study of a profile, where its search begins when another has reached `beat`, and the
+    /// parameters without influence, which it leaves out.
+    fn begin(
+        &self,
+        tasks: &Tasks,
+        conicity: f64,
+        beat: f64,
+        archive: &Archive,
+    ) -> (Study, Start, Vec<Parameter>) {
         let mut case = self.now.clone();
         case.wheel_rail.conicity = conicity;
         let Task { study, .. } = self.task(tasks, &case);
+        let without = unused(&study, &study.coordinates(self.now), archive);
+        let parameters = without.iter().map(|i| study.parameters()[*i]).collect();
+        let study = study.without(&without);
         let current = study.coordinates(self.now);
         let start = match self.known {
             None => Start::everywhere(self.seed).with(vec![current]),
             Some(known) => {
                 let own = known.profiles.iter().find(|p| same(p.conicity, conicity));
-                Start::near(vec![own.map_or(current, |p| p.x.clone())])
+                Start::near(vec![own.map_or(current, |p| study.coordinates(&p.case))])
             }
         };
         let also = self.also.iter().map(|case| study.coordinates(case));
@@ -96,89 +106,138 @@ impl Brief<'_> {
             beat,
             ..start.with(also.collect())
         };
-        (study, start)
+        (study, start, parameters)
     }
 }
 
-/// Solves a task for every profile to choose from, or only those still in the race.
+/// Solves a task for every profile to choose from, or only those still in the race. Where no design
+/// of any profile can be evaluated, the design at hand stays.
 ///
 /// # Errors
 ///
-/// [`DesignError::NothingEvaluated`] if no design of any profile could be evaluated.
-pub fn solve(brief: &Brief, tasks: &Tasks, archive: &Archive) -> Result<Stage, DesignError> {
+/// [`Stop`] if the run ended before a design was evaluated.
+pub fn solve(input: &StageInput, tasks: &Tasks, archive: &Archive) -> Result<Stage, Stop> {
     let mut best: Option<Candidate> = None;
     let mut profiles = Vec::new();
     let mut effort = Effort::default();
     let mut given_up = Vec::new();
-    let mut failure = NoDesign::Failed(Failure::NotFinite);
     let mut beat = f64::INFINITY;
-    for conicity in brief.choices(tasks) {
-        let (study, start) = brief.begin(tasks, conicity, beat);
-        match search(&study, &start, archive) {
-            Ok(Searched { study, solved }) => {
-                // A profile that was given up has no optimum to show.
-                if brief.trade_off.is_some() || solved.status != Status::Stalled {
-                    profiles.push(profile(&study, &solved));
-                } else {
-                    given_up.push(conicity);
-                }
-                effort.add(&solved.effort);
-                let is_better = |b: &Candidate| solved.point.better_than(&b.solved.point);
-                if best.as_ref().is_none_or(is_better) {
-                    if solved.point.feasible()
-                        && let Ok(values) = &solved.point.values
-                    {
-                        beat = values.objective();
-                    }
-                    best = Some(Candidate {
-                        study,
-                        solved,
-                        conicity,
-                    });
-                }
+    for conicity in input.choices(tasks) {
+        let (study, start, unused) = input.begin(tasks, conicity, beat, archive);
+        let searched = match search(&study, &start, archive) {
+            Ok(searched) => searched,
+            Err(NoDesign::Failed(reason)) => at_hand(study, input.now, reason),
+            Err(NoDesign::Stopped(stop)) if best.is_none() => return Err(stop),
+            Err(NoDesign::Stopped(_)) => break,
+        };
+        let candidate = Candidate {
+            searched,
+            unused,
+            conicity,
+        };
+        let solved = &candidate.searched.solved;
+        // A profile that was given up has no optimum to show.
+        if input.trade_off.is_some() || solved.status != Status::Stalled {
+            profiles.push(profile(&candidate));
+        } else {
+            given_up.push(conicity);
+        }
+        effort.add(&solved.effort);
+        if best.as_ref().is_none_or(|best| candidate.is_better(best)) {
+            if let (0, objective) = candidate.rank() {
+                beat = objective;
             }
-            Err(reason) => failure = reason,
+            best = Some(candidate);
         }
         if archive.stopped().is_some() {
             break;
         }
     }
-    let trade_off = brief.trade_off;
-    let best = best.ok_or(DesignError::NothingEvaluated {
-        trade_off,
-        reason: failure,
-    })?;
-    let before = best.study.coordinates(brief.now);
-    let changes = best.solved.point.x.iter().zip(&before);
-    let moved = if same(best.conicity, brief.now.wheel_rail.conicity) {
+    let best = best.ok_or(archive.stopped().unwrap_or(Stop::Interrupted))?;
+    let Searched { study, solved, .. } = &best.searched;
+    let before = study.coordinates(input.now);
+    let changes = solved.point.x.iter().zip(&before);
+    let moved = if same(best.conicity, input.now.wheel_rail.conicity) {
         changes.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     } else {
         1.0
     };
-    let goal = brief.task(tasks, brief.now).goal;
-    let mut explained = Explained::new(&best.study, &best.solved, goal);
+    let goal = input.task(tasks, input.now).goal;
+    let mut explained = Explained::new(&best.searched, goal);
     explained.effort.evaluations = effort.evaluations;
     explained.effort.failures = effort.failures;
     profiles.sort_by(|a, b| a.conicity.total_cmp(&b.conicity));
     Ok(Stage {
         result: StageResult {
-            trade_off,
+            trade_off: input.trade_off,
             explained,
+            unused: best.unused.clone(),
             profiles,
             given_up,
         },
-        case: best.study.design(&best.solved.point.x),
+        case: study.design(&solved.point.x),
         moved,
         best,
     })
+}
+
+/// The design at hand as the answer to a study that no design has a performance in.
+fn at_hand(study: Study, now: &Case, reason: Failure) -> Searched {
+    Searched {
+        solved: Solved {
+            point: Point {
+                x: study.coordinates(now),
+                values: Err(reason),
+            },
+            status: Status::Failed(reason),
+            certificate: None,
+            effort: Effort::default(),
+            ends: Vec::new(),
+        },
+        asked: study.clone(),
+        study,
+        missed: Vec::new(),
+    }
 }
 
 fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 0.0
 }
 
+impl Candidate {
+    /// Class (all met, demands missed, no performance) and, within it, the objective or the largest
+    /// violation.
+    fn rank(&self) -> (u8, f64) {
+        let violation = self.searched.violation();
+        match &self.searched.solved.point.values {
+            Err(_) => (2, 0.0),
+            Ok(values) if !values.feasible() => (1, values.violation().max(violation)),
+            Ok(values) if violation <= 0.0 => (0, values.objective()),
+            Ok(_) => (1, violation),
+        }
+    }
+
+    /// Whether it is better than another: violations that differ by less than is seen are decided
+    /// by the objective, equals by the order in which they come.
+    fn is_better(&self, other: &Self) -> bool {
+        let ((class, value), (others_class, others)) = (self.rank(), other.rank());
+        if class != others_class {
+            return class < others_class;
+        }
+        if class == 1 && (value - others).abs() <= MET {
+            let objective = |candidate: &Self| {
+                let values = candidate.searched.solved.point.values.as_ref();
+                values.map_or(f64::INFINITY, Values::objective)
+            };
+            return objective(self) < objective(other);
+        }
+        value < others
+    }
+}
+
 /// What the profile of a solved study allows.
-fn profile(study: &Study, solved: &Solved) -> Profile {
+fn profile(candidate: &Candidate) -> Profile {
+    let Searched { study, solved, .. } = &candidate.searched;
     let case = study.design(&solved.point.x);
     let stability = Stability::of(&case);
     Profile {
@@ -188,12 +247,8 @@ fn profile(study: &Study, solved: &Solved) -> Profile {
         degree: CurvingLimits::new(&case, 0.0).map_or(0.0, |limits| limits.degree()),
         bending_stiffness: case.vehicle.bending_stiffness(),
         lateral_stiffness: case.vehicle.suspension.primary.lateral_stiffness,
-        x: solved.point.x.clone(),
-        rank: match &solved.point.values {
-            Ok(values) if values.feasible() => (0, values.objective()),
-            Ok(values) => (1, values.violation()),
-            Err(_) => (2, 0.0),
-        },
+        rank: candidate.rank(),
+        case,
     }
 }
 

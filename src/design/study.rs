@@ -97,6 +97,15 @@ impl Study {
         Some(study)
     }
 
+    /// The study without the epigraph variable of [`Study::lifted`].
+    #[must_use]
+    pub fn grounded(&self) -> Self {
+        let mut study = self.clone();
+        study.is_lifted = false;
+        study.variables.truncate(study.parameters.len());
+        study
+    }
+
     /// Scaled coordinates of the lifted study for a design of this one: a critical speed a little
     /// below what it has.
     ///
@@ -135,6 +144,22 @@ impl Study {
                 optimiser::Scale::Linear
             },
         });
+        self
+    }
+
+    /// The study with some of its variables, by number, no longer free: each keeps its value in the
+    /// case, or the bound next to it where that lies outside the bounds.
+    #[must_use]
+    pub fn without(mut self, variables: &[usize]) -> Self {
+        for i in variables.iter().rev() {
+            let (parameter, variable) = (self.parameters.remove(*i), self.variables.remove(*i));
+            let [low, high] = variable.bounds;
+            let value = parameter.get(&self.base);
+            if !(low..=high).contains(&value) {
+                let fixed = Rule::Fixed(value.clamp(low, high));
+                self.rules.push((parameter, fixed));
+            }
+        }
         self
     }
 
@@ -230,6 +255,21 @@ impl Study {
             }
         }
         study
+    }
+
+    /// The study with the terms of another on the same parameters behind its own.
+    #[must_use]
+    pub fn and_terms_of(mut self, other: &Self) -> Self {
+        self.terms.extend(other.terms.iter().cloned());
+        self
+    }
+
+    /// Numbers of the terms that are demands.
+    pub fn demands(&self) -> impl Iterator<Item = usize> + '_ {
+        let numbered = self.terms.iter().enumerate();
+        numbered
+            .filter(|(_, term)| matches!(term.role, Role::Constraint { .. }))
+            .map(|(i, _)| i)
     }
 
     /// Whether a piece counts in its term.
@@ -367,16 +407,23 @@ impl Study {
         })
     }
 
-    /// Value of a term at which objective pieces come out as `value`, SI.
-    pub fn index_at(&self, term: &Term, value: f64) -> Option<f64> {
+    /// Value of a term at which objective pieces come out as `value`, and its derivative by that,
+    /// SI. `None` if the term is no objective.
+    pub fn index_at(&self, term: &Term, value: f64) -> Option<[f64; 2]> {
         let Role::Objective { weight, origin, .. } = term.role else {
             return None;
         };
         let worse = value / weight;
         Some(match (term.index.scale(), term.index.sense()) {
-            (Scale::Linear, _) => origin - worse / DAMPING,
-            (Scale::Logarithmic, Sense::AtLeast) => origin * (-worse).exp(),
-            (Scale::Logarithmic, Sense::AtMost) => origin * worse.exp(),
+            (Scale::Linear, _) => [origin - worse / DAMPING, -1.0 / (DAMPING * weight)],
+            (Scale::Logarithmic, Sense::AtLeast) => {
+                let index = origin * (-worse).exp();
+                [index, -index / weight]
+            }
+            (Scale::Logarithmic, Sense::AtMost) => {
+                let index = origin * worse.exp();
+                [index, index / weight]
+            }
         })
     }
 }

@@ -6,9 +6,7 @@
 use std::ops::Range;
 
 use super::{
-    explain::worst,
-    measure::{Wanted, measure_each},
-    search::falls_short,
+    measure::{Wanted, measure_each, worst},
     sequence::Sequence,
     study::Study,
     tasks::Tasks,
@@ -171,7 +169,7 @@ impl<'a> Sweep<'a> {
             meets &= demands.iter().all(|demand| {
                 let reached = of(demand.index).ok();
                 let reached = reached.and_then(|pieces| worst(demand.index, &pieces));
-                reached.is_some_and(|reached| !falls_short(demand.index, demand.bound, reached))
+                reached.is_some_and(|reached| demand.met_by(reached))
             });
         }
         Design {

@@ -184,22 +184,12 @@ impl<'a> Tasks<'a> {
         (study, goal.into())
     }
 
-    /// Whether a demand already is what a trade-off maximises the margin of.
-    fn is_margin(&self, index: Index) -> bool {
-        let both = self.demands.get(Index::CriticalSpeed).is_some()
-            && self.demands.get(Index::DegreeCurve).is_some();
-        both && matches!(index, Index::CriticalSpeed | Index::DegreeCurve)
-    }
-
     /// One trade-off of a case (whose other parameters stay).
     pub fn trade_off(&self, case: &Case, trade_off: TradeOff) -> Task {
         let study = self.study(case, |parameter| parameter.trade_off() == trade_off);
         let (mut study, goal) = self.objective_of(study, trade_off, 0);
         for condition in 0..study.conditions() {
             for demand in self.demands_in(condition).iter() {
-                if self.is_margin(demand.index) && trade_off == TradeOff::StabilityCurving {
-                    continue;
-                }
                 study = match concern(trade_off, demand.index) {
                     Concern::None => study,
                     Concern::All => study.demand(condition, demand.index, demand.bound),
@@ -249,9 +239,7 @@ impl<'a> Tasks<'a> {
         }
         for condition in 0..study.conditions() {
             for demand in self.demands_in(condition).iter() {
-                if !(self.objective.is_empty() && self.is_margin(demand.index)) {
-                    study = study.demand(condition, demand.index, demand.bound);
-                }
+                study = study.demand(condition, demand.index, demand.bound);
             }
         }
         Task {

@@ -2,9 +2,10 @@
 //! demands conflict, what the joint optimisation gained.
 
 use super::{
-    design_text::{status, trade_off, value},
+    design_text::{trade_off, value},
     number::{both, in_unit, signed_percent, significant},
     sheet::Sheet,
+    status,
 };
 use crate::{
     design::{
@@ -22,17 +23,19 @@ pub(crate) fn certificate(sheet: &mut Sheet, explained: &Explained) {
     for price in &explained.prices {
         sheet.line(&price_line(explained, price));
     }
-    for chosen in &explained.chosen {
-        if chosen.at_bound.is_some() && chosen.bound_price > 1e-4 {
+    // Beside relaxed bounds there is no room to move: the multipliers there tell no gain.
+    let is_compromise = explained.status == Status::Infeasible;
+    for chosen in explained.chosen.iter().filter(|_| !is_compromise) {
+        if chosen.at_bound.is_some() && explained.bound_gain(chosen) > 1e-4 {
             sheet.line(&format!(
                 "10 % beyond the bound on {} would gain about {} %",
                 chosen.variable.symbol,
-                significant(10.0 * chosen.bound_price, 2)
+                significant(10.0 * explained.bound_gain(chosen), 2)
             ));
         }
     }
     let effort = &explained.effort;
-    let mut parts = vec![status(explained.status).to_owned()];
+    let mut parts = vec![status::words(explained.status)];
     if let Some(residual) = explained.kkt_residual {
         parts.push(format!("first-order residual {residual:.0e}"));
     }
@@ -87,7 +90,7 @@ fn price_line(explained: &Explained, price: &Price) -> String {
             (label, _) => (format!("1 {label}"), unit.factor),
         };
         let cost = match explained.objective {
-            Some((index, _)) => objective(index, change * size, us),
+            Some(found) => objective(found.index, change * size, us),
             None => format!("{} % of the sum", significant(100.0 * change * size, 2)),
         };
         (step, cost)
@@ -192,7 +195,11 @@ pub(crate) fn conflict(sheet: &mut Sheet, result: &DesignResult) {
     if conflict.demands.is_empty() {
         return;
     }
-    sheet.heading("In conflict");
+    sheet.heading(if conflict.demands.len() == 1 {
+        "Out of reach"
+    } else {
+        "In conflict"
+    });
     let rows: Vec<Vec<String>> = conflict
         .demands
         .iter()
@@ -206,9 +213,11 @@ pub(crate) fn conflict(sheet: &mut Sheet, result: &DesignResult) {
                 name,
                 value(quantity, opposed.required),
                 format!("{:.0} %", 100.0 * opposed.share),
-                opposed
-                    .alone
-                    .map_or_else(|| "not enough alone".into(), |v| value(quantity, v)),
+                match opposed.alone {
+                    _ if !opposed.influenced => "no design variable changes it".into(),
+                    Some(bound) => value(quantity, bound),
+                    None => "not enough alone".into(),
+                },
             ]
         })
         .collect();

@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value, json};
 
-use super::{design_text::status, evaluation_json};
+use super::{evaluation_json, status};
 use crate::{
     design::{
         explain::{Bound, Chosen, Explained, Price},
         form::form,
         margin::Margin,
-        outcome::{DesignResult, Profile, StageResult},
+        outcome::{Delivered, DesignResult, Profile, StageResult},
         sensitivity::Sensitivity,
     },
     evaluate::checks::checks,
@@ -37,7 +37,15 @@ pub fn design(
     insert("name", json!(name));
     insert("spec_sha256", json!(digest));
     insert("seed", json!(spec.design.seed));
+    insert("status", json!(status::of_run(result)));
     insert("requirements_met", json!(result.met()));
+    insert(
+        "delivered",
+        json!(match result.delivered {
+            Delivered::InTurn => "in-turn",
+            Delivered::AllAtOnce => "all-at-once",
+        }),
+    );
     insert("stopped", json!(result.stopped.map(|s| s.to_string())));
     let unmet: Vec<Value> = result.unmet().map(margin).collect();
     insert("unmet", json!(unmet));
@@ -126,12 +134,13 @@ pub(super) fn stage(stage: &StageResult) -> Value {
     json!({
         "trade_off": stage.trade_off.map_or_else(|| "all at once".into(), |t| t.to_string()),
         "goal": goal,
-        "objective": objective.map(|(index, value)| json!({
-            "index": index.name(),
-            "value_si": value,
+        "objective": objective.map(|objective| json!({
+            "index": objective.index.name(),
+            "value_si": objective.value,
         })),
         "merit": merit,
-        "status": status(stage.explained.status),
+        "status": status::code(stage.explained.status),
+        "status_text": status::words(stage.explained.status),
         "kkt_residual": stage.explained.kkt_residual,
         "largest_violation": stage.explained.violation,
         "second_order": stage.explained.curvature.map(curvature),
@@ -140,7 +149,8 @@ pub(super) fn stage(stage: &StageResult) -> Value {
         "evaluations": effort.evaluations,
         "failed_evaluations": effort.failed(),
         "failures": failures_of(&effort.failures),
-        "variables": chosen.iter().map(variable).collect::<Vec<_>>(),
+        "variables": chosen.iter().map(|c| variable(&stage.explained, c)).collect::<Vec<_>>(),
+        "without_influence": stage.unused.iter().map(|p| p.name()).collect::<Vec<_>>(),
         "active": active,
         "prices": prices.iter().map(|p| price(&stage.explained, p)).collect::<Vec<_>>(),
         "profiles_not_pursued": stage.given_up,
@@ -158,7 +168,7 @@ fn curvature(curvature: Curvature) -> Value {
     json!({ "kind": kind, "least_curvature": least })
 }
 
-fn variable(c: &Chosen) -> Value {
+fn variable(explained: &Explained, c: &Chosen) -> Value {
     json!({
         "key": c.parameter.name(),
         "name": c.variable.name,
@@ -171,6 +181,7 @@ fn variable(c: &Chosen) -> Value {
         }),
         "bound_price": c.bound_price,
         "objective_elasticity": c.elasticity,
+        "relative_gain_per_relative_increase": explained.gain_per_share(c),
     })
 }
 
@@ -188,7 +199,8 @@ fn price(explained: &Explained, price: &Price) -> Value {
 fn profile(p: &Profile) -> Value {
     json!({
         "conicity": p.conicity,
-        "status": status(p.status),
+        "status": status::code(p.status),
+        "status_text": status::words(p.status),
         "critical_speed_m_per_s": p.critical_speed,
         "degree_curve_deg": p.degree,
         "bending_stiffness_n_m_per_rad": p.bending_stiffness,
@@ -205,7 +217,9 @@ fn conflict(result: &DesignResult) -> Value {
             "key": opposed.index.path(),
             "condition": opposed.condition,
             "required_si": opposed.required,
+            "group": opposed.group,
             "share": opposed.share,
+            "influenced": opposed.influenced,
             "feasible_alone_at_si": opposed.alone,
         })
     });

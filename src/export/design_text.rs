@@ -5,6 +5,7 @@ use super::{
     evaluation_text::{constraint_table, stability, title},
     number::{both, signed_percent, significant},
     sheet::Sheet,
+    status,
 };
 use crate::{
     design::{
@@ -20,7 +21,6 @@ use crate::{
         ride::{LateralRide, VerticalRide},
     },
     index::Demands,
-    optimize::local::Status,
     parameter::TradeOff,
     units::Quantity,
     vehicle::GRAVITY,
@@ -92,11 +92,25 @@ pub(crate) fn verdict(sheet: &mut Sheet, result: &DesignResult) {
     }
     if result.met() {
         sheet.heading("All requirements and limits are met.");
+        if result.joint_in_place_of_sequence() {
+            sheet.line(
+                "The trade-offs in turn miss some of them; all at once meets them: its design is \
+                 delivered.",
+            );
+        }
     } else {
-        sheet.heading(match result.stopped {
-            Some(_) => "Not everything is met yet:",
-            None => "Not everything can be met; this is the best compromise:",
+        sheet.heading(&match (result.stopped, result.failure()) {
+            (Some(_), _) => "Not everything is met yet:".into(),
+            (None, Some(failure)) => format!(
+                "No design within the bounds could be evaluated ({failure}); left as given:"
+            ),
+            (None, None) => "Not everything can be met; this is the best compromise:".to_owned(),
         });
+        if result.joint_in_place_of_sequence() {
+            sheet.line(
+                "All at once comes closer than the trade-offs in turn: its design is delivered.",
+            );
+        }
         for unmet in result.unmet() {
             let quantity = unmet.index.quantity();
             let reached = match &unmet.reached {
@@ -144,9 +158,9 @@ pub(crate) fn trade_off(sheet: &mut Sheet, stage: &StageResult) {
                 Some(Bound::Upper) => "at its upper bound",
                 None => "",
             };
-            let slope = match (explained.kkt_residual, explained.gain_per_share(chosen)) {
-                (Some(_), gain) => format!("1 % more: {}", signed_percent(gain)),
-                (None, _) => String::new(),
+            let slope = match explained.gain_per_share(chosen) {
+                Some(gain) => format!("1 % more: {}", signed_percent(gain)),
+                None => String::new(),
             };
             vec![
                 chosen.variable.name.to_string(),
@@ -162,7 +176,11 @@ pub(crate) fn trade_off(sheet: &mut Sheet, stage: &StageResult) {
     if !explained.active.is_empty() {
         sheet.line(&format!("held back by: {}", explained.active.join("; ")));
     }
-    certificate(sheet, explained);
+    unused(sheet, stage);
+    // With nothing to choose there is nothing to certify.
+    if !explained.chosen.is_empty() || stage.unused.is_empty() {
+        certificate(sheet, explained);
+    }
     if !stage.profiles.is_empty() {
         let rows: Vec<Vec<String>> = stage.profiles.iter().map(profile_row).collect();
         sheet.table(
@@ -179,6 +197,21 @@ pub(crate) fn trade_off(sheet: &mut Sheet, stage: &StageResult) {
         );
     }
     given_up(sheet, stage);
+}
+
+/// Open parameters without influence.
+fn unused(sheet: &mut Sheet, stage: &StageResult) {
+    if !stage.unused.is_empty() {
+        let names = stage
+            .unused
+            .iter()
+            .map(|p| format!("{} ({})", p.words(), p.symbol()));
+        let names: Vec<String> = names.collect();
+        sheet.line(&format!(
+            "without influence here, left as given: {}",
+            names.join(", ")
+        ));
+    }
 }
 
 /// Profiles that were not pursued.
@@ -201,18 +234,8 @@ fn profile_row(profile: &Profile) -> Vec<String> {
         format!("{}°", significant(profile.degree, 4)),
         us(Quantity::RotationalStiffness, profile.bending_stiffness),
         us(Quantity::Stiffness, profile.lateral_stiffness),
-        status(profile.status).into(),
+        status::words(profile.status),
     ]
-}
-
-pub(crate) fn status(status: Status) -> &'static str {
-    match status {
-        Status::Optimal => "optimal",
-        Status::Stalled => "feasible, but not converged to an optimum",
-        Status::Infeasible => "requirement out of reach: least violation",
-        Status::BudgetSpent => "the budget of evaluations was spent: best so far",
-        Status::Interrupted => "interrupted: best so far",
-    }
 }
 
 fn performance(sheet: &mut Sheet, result: &DesignResult) {

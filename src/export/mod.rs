@@ -15,6 +15,7 @@ pub mod pareto;
 pub mod psd;
 pub mod sensitivity;
 pub(crate) mod sheet;
+pub mod status;
 pub mod sweep;
 pub mod table;
 

@@ -2,9 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{
-    design_json::failures_of, design_text::status, number::significant, sheet::Sheet, table::Table,
-};
+use super::{design_json::failures_of, number::significant, sheet::Sheet, status, table::Table};
 use crate::{
     design::pareto::{Front, FrontPoint},
     index::Index,
@@ -16,7 +14,7 @@ use crate::{
 /// the index's column; `None` if it held nothing back.
 fn price(point: &FrontPoint, index: Index) -> Option<f64> {
     let explained = &point.explained;
-    let (objective, _) = explained.objective?;
+    let objective = explained.objective?.index;
     let price = explained.prices.iter().find(|p| p.index == index)?;
     let si = explained.price(price);
     Some(objective.in_column(si) / index.in_column(1.0))
@@ -45,7 +43,7 @@ pub fn table(name: &str, front: &Front, digest: &str) -> Table {
     table.text(
         "objective",
         points.iter().map(|p| match p.explained.objective {
-            Some((index, _)) => index.name(),
+            Some(objective) => objective.index.name(),
             None => "",
         }),
     );
@@ -56,7 +54,7 @@ pub fn table(name: &str, front: &Front, digest: &str) -> Table {
         );
     }
     let explained = || points.iter().map(|p| &p.explained);
-    table.text("status", explained().map(|e| status(e.status)));
+    table.text("status", explained().map(|e| status::code(e.status)));
     table.number("kkt_residual", explained().map(|e| e.kkt_residual));
     table.text("held_back_by", explained().map(|e| e.active.join("; ")));
     table
@@ -70,6 +68,7 @@ pub fn json(name: &str, front: &Front, spec: &Spec, digest: &str) -> Value {
         "spec_sha256": digest,
         "seed": spec.design.seed,
         "indices": front.indices.iter().map(|i| i.name()).collect::<Vec<_>>(),
+        "status": status::of_front(front),
         "stopped": front.stopped.map(|s| s.to_string()),
         "evaluations": front.evaluations,
         "failures": failures_of(&front.failures),
@@ -116,7 +115,7 @@ pub fn text(name: &str, front: &Front) -> String {
                     row.push(plain(unit(parameter.quantity()), value));
                 }
                 row.push(point.explained.active.join("; "));
-                row.push(status(point.explained.status).into());
+                row.push(status::words(point.explained.status));
                 row
             })
             .collect();

@@ -73,7 +73,7 @@ pub(super) fn search(
 }
 
 /// Point `i` of Halton's low-discrepancy sequence in `n` dimensions (Halton 1960).
-pub(super) fn halton(i: usize, n: usize) -> Vec<f64> {
+pub fn halton(i: usize, n: usize) -> Vec<f64> {
     const PRIMES: [usize; 16] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53];
     PRIMES
         .iter()

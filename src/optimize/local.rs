@@ -15,7 +15,7 @@ use super::{
     archive::Stop,
     certificate::Certificate,
     evaluations::{Evaluations, near},
-    problem::{FEASIBLE, Point, Values},
+    problem::{FEASIBLE, Failure, Point, Values},
     subproblem::{self, Step, Weights},
     surrogate::{Surrogate, along, displacement, pattern, unknown_directions},
 };
@@ -33,6 +33,8 @@ pub enum Status {
     BudgetSpent,
     /// The run was interrupted; the best point found so far.
     Interrupted,
+    /// No point looked at could be evaluated; the point is the one to begin from.
+    Failed(Failure),
 }
 
 impl From<Stop> for Status {

@@ -2,7 +2,7 @@
 
 use std::{collections::VecDeque, time::Instant};
 
-pub use super::{effort::Effort, start::Start};
+pub use super::{effort::Effort, global::halton, start::Start};
 
 use super::{
     archive::{Archive, Stop},
@@ -74,7 +74,8 @@ pub fn solve(problem: &dyn Problem, start: &Start, archive: &Archive) -> Result<
     let ends = std::mem::take(&mut search.ends);
     let best = search.best.take();
     let mut found = finish(&evaluations, best, outcome.err())?;
-    if found.status == Status::Infeasible {
+    let is_free = !problem.variables().is_empty();
+    if found.status == Status::Infeasible && is_free {
         found = least_violation(problem, archive, found);
     } else if found.status == Status::Optimal
         && let Ok(curved) = local::with_curvature(&evaluations, found.clone())

@@ -16,9 +16,10 @@ use crate::{
     },
     export::{
         certificate::certificate,
-        design_text::{status, value},
+        design_text::value,
         number::{both, significant},
         sheet::Sheet,
+        status,
     },
     index::Index,
     parameter::Parameter,
@@ -204,7 +205,7 @@ fn row(front: &Front, point: &FrontPoint) -> Vec<String> {
             .iter()
             .map(|p| value(p.quantity(), p.get(&point.case))),
     );
-    row.push(status(point.explained.status).into());
+    row.push(status::words(point.explained.status));
     row
 }
 

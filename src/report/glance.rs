@@ -11,8 +11,9 @@ use crate::{
     evaluate::checks::checks,
     export::{
         certificate::{conflict, margin_row},
-        design_text::{performance_rows, stage_name, status, verdict},
+        design_text::{performance_rows, stage_name, verdict},
         sheet::Sheet,
+        status,
     },
 };
 
@@ -115,7 +116,7 @@ fn ended(report: &Report) -> Markup {
             vec![
                 stage_name(stage.trade_off),
                 explained.goal.clone(),
-                status(explained.status).into(),
+                status::words(explained.status),
                 explained
                     .kkt_residual
                     .map_or_else(|| "–".into(), |r| format!("{r:.0e}")),
@@ -132,7 +133,12 @@ fn ended(report: &Report) -> Markup {
     ];
     html! {
         (table("How the searches ended", &columns, &rows))
-        @if result.joint.is_some() {
+        @if result.joint_in_place_of_sequence() {
+            p.note {
+                "The design of this report is that of “all at once”: it meets or comes closer to "
+                "demands that the trade-offs taken in turn miss."
+            }
+        } @else if result.joint.is_some() {
             p.note {
                 "The design of this report is that of the trade-offs taken in turn. “All at once” "
                 "is what weighing them together would give: see the certificate."

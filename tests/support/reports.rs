@@ -68,7 +68,7 @@ pub fn made() -> String {
         .unwrap_or_else(|mistakes| panic!("{}", mistakes.render("hostile", &source, false)));
     let archive = Archive::new(&Silent);
     let result = procedure::design(&spec, &archive).unwrap();
-    let front = pareto::pareto(&spec, &Archive::new(&Silent)).unwrap();
+    let front = pareto::pareto(&spec, &Archive::new(&Silent));
     let designed = Spec {
         case: result.case.clone(),
         ..spec.clone()

@@ -13,7 +13,7 @@ use crate::{
         gradients::Constants,
         ride::{NoRide, VerticalRide},
     },
-    index::{Behaviour, Index},
+    index::{Behaviour, Index, Sense},
     optimize::problem::{Failure, Piece},
     parameter::Parameter,
 };
@@ -258,6 +258,15 @@ fn pieces(values: &[f64], gradients: Option<&[Vec<f64>]>) -> Vec<Piece> {
             ..Piece::single(i, *value)
         })
         .collect()
+}
+
+/// The worst value of an index among its pieces.
+pub fn worst(index: Index, pieces: &[Piece]) -> Option<f64> {
+    let values = pieces.iter().map(|p| p.value);
+    match index.sense() {
+        Sense::AtLeast => values.min_by(f64::total_cmp),
+        Sense::AtMost => values.max_by(f64::total_cmp),
+    }
 }
 
 /// Bands kept apart by point.

@@ -20,7 +20,7 @@ pub use front::FrontPoint;
 use super::{
     explain::Explained,
     margin::value,
-    search::{Searched, search},
+    search::{Searched, search_feasible},
     study::Study,
     tasks::Tasks,
 };
@@ -49,6 +49,8 @@ pub struct Front {
     pub points: Vec<FrontPoint>,
     /// Points found but dominated by others.
     pub dominated: usize,
+    /// Why there is no point, where no design could be evaluated.
+    pub failure: Option<Failure>,
     /// Why the run ended early, if it did.
     pub stopped: Option<Stop>,
     /// Full-model evaluations.
@@ -67,13 +69,9 @@ const EVERYWHERE: usize = 4;
 /// Fewest points that show the shape of one profile's front.
 const SHAPE: usize = 6;
 
-/// Traces the front of a spec.
-///
-/// # Errors
-///
-/// [`NoDesign`] if no design could be evaluated at all. A run that is stopped before its first point
-/// gives a front without points.
-pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
+/// Traces the front of a spec. A run that is stopped before its first point, and one in which no
+/// design could be evaluated, give a front without points.
+pub fn pareto(spec: &Spec, archive: &Archive) -> Front {
     let (count, before) = (archive.count(), archive.failures());
     let indices = &spec.front.indices;
     let tasks = Tasks::new(spec);
@@ -107,18 +105,14 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
     for tracer in &tracers {
         match tracer.front(indices, &[], wanted) {
             Ok(found) => points.extend(found),
-            Err(reason) => failure = Some(reason),
+            Err(NoDesign::Failed(reason)) => failure = Some(reason),
+            Err(NoDesign::Stopped(_)) => {}
         }
         if archive.stopped().is_some() {
             break;
         }
     }
-    if points.is_empty()
-        && archive.stopped().is_none()
-        && let Some(reason) = failure
-    {
-        return Err(reason);
-    }
+    let failure = failure.filter(|_| points.is_empty());
     if indices.len() == 2 {
         refine(&tracers, &mut points, spec.front.points);
         rival(&tracers, &mut points);
@@ -140,15 +134,16 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Result<Front, NoDesign> {
     }
     thin(&mut points, indices, spec.front.points);
     points.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
-    Ok(Front {
+    Front {
         indices: indices.clone(),
         parameters,
         points,
         dominated,
+        failure,
         stopped: archive.stopped(),
         evaluations: archive.count() - count,
         failures: archive.failures_since(&before),
-    })
+    }
 }
 
 /// The study with the ends that the spec gives the front.
@@ -480,18 +475,20 @@ impl Tracer<'_> {
                 study = study.demand(condition, *index, *bound);
             }
         }
-        let Searched { study, solved } = search(&study, start, self.archive)?;
-        let ended = matches!(solved.status, Status::BudgetSpent | Status::Interrupted);
-        if ended || !solved.point.feasible() {
+        let Some(searched) = search_feasible(&study, start, self.archive)? else {
+            return Ok(None);
+        };
+        let Searched { study, solved, .. } = &searched;
+        if matches!(solved.status, Status::BudgetSpent | Status::Interrupted) {
             return Ok(None);
         }
         let x = solved.point.x[..study.parameters().len()].to_vec();
         let case = study.design(&x);
-        let worst = |index: &Index| worst_over_conditions(&study, &case, *index);
+        let worst = |index: &Index| worst_over_conditions(study, &case, *index);
         Ok(Some(FrontPoint {
             profile: self.profile,
             values: self.indices.iter().map(worst).collect(),
-            explained: Explained::new(&study, &solved, format!("best {}", objective.words())),
+            explained: Explained::new(&searched, format!("best {}", objective.words())),
             case,
             x,
             bounds: bounds.to_vec(),

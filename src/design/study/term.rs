@@ -8,7 +8,7 @@ use crate::{
 
 /// A difference of damping ratio of 1/3 counts as much as a factor e: near the critical speed of
 /// passenger trucks that is about what doubling the speed costs.
-pub(super) const DAMPING: f64 = 3.0;
+pub const DAMPING: f64 = 3.0;
 /// Share of a bound below which a value counts as that share.
 const LEAST: f64 = 1e-9;
 

@@ -1,0 +1,319 @@
+//! The best compromise where demands cannot all be met: the best objective among the designs of
+//! least violation.
+//!
+//! ```math
+//! lex min (v₁, v₂, …, f),   v₁ ≥ v₂ ≥ … the relative violations of the demands
+//! ```
+//!
+//! The largest violation is minimised first. Demands that hold one another at that minimum, by the
+//! multipliers of the minimax problem, are relaxed to what they reach; the largest violation of the
+//! rest is minimised next, and so on until the rest can be met (the lexicographic minimax of
+//! Behringer, *A simplex based algorithm for the lexicographically extended linear maxmin problem*,
+//! European Journal of Operational Research 7, 1981). The objective decides among the designs that
+//! remain.
+
+use super::{
+    lifted::{Lifted, solve_lifted},
+    measure::worst,
+    study::{Role, Study},
+};
+use crate::{
+    index::{Demand, Index, Scale, Sense},
+    optimize::{
+        archive::Archive,
+        certificate::HOLDS,
+        local::Status,
+        problem::{Detail, Piece, Point, Problem, Values, largest},
+        solve::{NoDesign, Solved, Start, halton},
+    },
+};
+
+/// A demand that no design was found to meet together with the rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Missed {
+    /// Number of its term in the study.
+    pub term: usize,
+    /// On what.
+    pub index: Index,
+    /// In which condition; `None` for the nominal one.
+    pub condition: Option<String>,
+    /// The bound asked for, SI.
+    pub required: f64,
+    /// Value reached, SI; `None` if the demand has no value to be reached.
+    pub reached: Option<f64>,
+    /// Number of the group of demands that hold one another, from 0: the worst violated first.
+    pub group: usize,
+    /// Share in the conflict: the shares of a group add up to one.
+    pub share: f64,
+    /// Whether any design variable changes the index.
+    pub influenced: bool,
+}
+
+impl Missed {
+    fn demand(&self) -> Demand {
+        Demand {
+            index: self.index,
+            bound: self.required,
+        }
+    }
+
+    /// Whether the value reached counts as meeting the demand.
+    pub fn met(&self) -> bool {
+        self.reached
+            .is_some_and(|reached| self.demand().met_by(reached))
+    }
+
+    /// How far the value reached falls short of the bound, as [`Demand::shortfall`]; infinite if the
+    /// demand has no value.
+    pub fn violation(&self) -> f64 {
+        let short = |reached| self.demand().shortfall(reached).max(0.0);
+        self.reached.map_or(f64::INFINITY, short)
+    }
+
+    /// The bound that the compromise keeps, SI: the value reached, and a little room, without which
+    /// the designs left would have no interior.
+    pub(super) fn relaxed_bound(&self) -> Option<f64> {
+        /// A fifth of the tolerance within which a demand counts as met.
+        const ROOM: f64 = 2e-5;
+        let reached = self.reached?;
+        Some(match (self.index.scale(), self.index.sense()) {
+            (Scale::Linear, _) => reached - ROOM,
+            (Scale::Logarithmic, Sense::AtLeast) => reached * (1.0 - ROOM),
+            (Scale::Logarithmic, Sense::AtMost) => reached * (1.0 + ROOM),
+        })
+    }
+}
+
+/// The best compromise of a study, from a solution that misses some of its demands: the solution of
+/// the study with relaxed bounds, and the demands that are missed.
+///
+/// # Errors
+///
+/// [`NoDesign`] if not one design could be evaluated.
+pub fn compromise(
+    study: &Study,
+    start: &Start,
+    found: &Solved,
+    archive: &Archive,
+) -> Result<(Lifted, Vec<Missed>), NoDesign> {
+    let n = study.parameters().len();
+    let mut x = found.point.x[..n].to_vec();
+    let mut missed: Vec<Missed> = Vec::new();
+    let mut effort = found.effort.clone();
+    for group in 0..study.demands().count() {
+        let (open, kept) = open_shortfall(study, &missed);
+        if kept.is_empty() || archive.stopped().is_some() {
+            break;
+        }
+        let from = start.clone().with(vec![x.clone()]).thoroughly();
+        let closest = solve_lifted(&open, &from, archive)?;
+        effort.add(&closest.solved.effort);
+        x = closest.solved.point.x[..n].to_vec();
+        let Ok(values) = &closest.solved.point.values else {
+            break;
+        };
+        if values.objective() <= 0.0 {
+            break;
+        }
+        let reached = Reached::new(&open, &x);
+        for (k, share) in holding(&closest, values, kept.len()) {
+            missed.push(reached.missed(study, [kept[k], k], group, share));
+        }
+    }
+    let mut last = best_of_relaxed(&relax(study, &missed), start, x, archive)?;
+    last.solved.effort.add(&effort);
+    let (all, terms) = open_shortfall(study, &[]);
+    let reached = Reached::new(&all, &last.solved.point.x[..n]);
+    for missed in &mut missed {
+        let k = terms.iter().position(|term| *term == missed.term);
+        missed.reached = k.and_then(|k| reached.value(k));
+    }
+    let unmet = missed.iter().any(|missed| !missed.met());
+    let ended = matches!(
+        last.solved.status,
+        Status::BudgetSpent | Status::Interrupted
+    );
+    if unmet && !ended {
+        last.solved.status = Status::Infeasible;
+    }
+    Ok((last, missed))
+}
+
+/// Scaled coordinates of a design that meets all demands of a study, sought from one that does not;
+/// `None` if none was found.
+///
+/// # Errors
+///
+/// [`NoDesign`] if not one design could be evaluated.
+pub fn feasible(
+    study: &Study,
+    start: &Start,
+    found: &Solved,
+    archive: &Archive,
+) -> Result<Option<Vec<f64>>, NoDesign> {
+    let n = study.parameters().len();
+    let from = start.clone().with(vec![found.point.x[..n].to_vec()]);
+    let closest = solve_lifted(&shortfall(study), &from.thoroughly(), archive)?;
+    let x = closest.solved.point.x[..n].to_vec();
+    let meets_all = study.evaluate(&x).is_ok_and(|values| values.feasible());
+    Ok(meets_all.then_some(x))
+}
+
+/// The best objective within relaxed bounds, which the design at `x` keeps.
+fn best_of_relaxed(
+    relaxed: &Study,
+    start: &Start,
+    x: Vec<f64>,
+    archive: &Archive,
+) -> Result<Lifted, NoDesign> {
+    let start = start.clone().with(vec![x.clone()]);
+    let found = solve_lifted(relaxed, &start, archive)?;
+    let values = relaxed.evaluate(&x);
+    if found.solved.point.feasible() || !values.as_ref().is_ok_and(Values::feasible) {
+        return Ok(found);
+    }
+    // The search has lost the design that it began from.
+    Ok(Lifted {
+        study: relaxed.clone(),
+        solved: Solved {
+            point: Point { x, values },
+            status: Status::Stalled,
+            certificate: None,
+            ..found.solved
+        },
+    })
+}
+
+/// The demands of a study as its objective: the largest relative shortfall.
+pub fn shortfall(study: &Study) -> Study {
+    open_shortfall(study, &[]).0
+}
+
+/// The demands that are not missed as the objective, the missed ones as constraints with relaxed
+/// bounds; and the numbers that the terms of the objective, which come first, have in the study.
+fn open_shortfall(study: &Study, missed: &[Missed]) -> (Study, Vec<usize>) {
+    let is_open = |i: usize| !missed.iter().any(|missed| missed.term == i);
+    let kept: Vec<usize> = study.demands().filter(|i| is_open(*i)).collect();
+    let open = study.with_roles(|i, term| match term.role {
+        Role::Constraint { bound } if is_open(i) => Some(Role::Objective {
+            group: 0,
+            weight: 1.0,
+            origin: bound,
+        }),
+        _ => None,
+    });
+    let relaxed = study.with_roles(|i, _| relaxed_role(missed.iter().find(|m| m.term == i)?));
+    (open.and_terms_of(&relaxed), kept)
+}
+
+/// The study with the bounds of missed demands relaxed to what they reach. A missed demand without
+/// a value is left out.
+fn relax(study: &Study, missed: &[Missed]) -> Study {
+    study.with_roles(|i, term| match missed.iter().find(|m| m.term == i) {
+        Some(missed) => relaxed_role(missed),
+        None => Some(term.role),
+    })
+}
+
+fn relaxed_role(missed: &Missed) -> Option<Role> {
+    let bound = missed.relaxed_bound()?;
+    Some(Role::Constraint { bound })
+}
+
+/// Objective terms, by number, that hold one another at the least shortfall, with their shares.
+fn holding(closest: &Lifted, values: &Values, terms: usize) -> Vec<(usize, f64)> {
+    /// Without multipliers, as where no variable is left: shortfalls within this of the largest.
+    const NEAR: f64 = 1e-3;
+    let certificate = closest.solved.certificate.as_ref();
+    let certificate = certificate.filter(|_| !closest.study.parameters().is_empty());
+    let mut shares = vec![0.0; terms];
+    for (group, pieces) in values.objectives.iter().enumerate() {
+        let worst = largest(pieces);
+        for (k, piece) in pieces.iter().enumerate() {
+            let share = match certificate {
+                Some(certificate) => certificate.objective_multipliers[group][k],
+                None => f64::from(u8::from(piece.value > worst - NEAR)),
+            };
+            shares[closest.study.term_of(piece.index)] += share;
+        }
+    }
+    let total: f64 = shares.iter().filter(|share| **share > HOLDS).sum();
+    let numbered = shares.into_iter().enumerate();
+    numbered
+        .filter(|(_, share)| *share > HOLDS)
+        .map(|(k, share)| (k, share / total))
+        .collect()
+}
+
+/// Values of the demands of a shortfall study at a design.
+struct Reached<'a> {
+    open: &'a Study,
+    x: Vec<f64>,
+    measured: Vec<Piece>,
+}
+
+impl<'a> Reached<'a> {
+    fn new(open: &'a Study, x: &[f64]) -> Self {
+        Self {
+            open,
+            x: x.to_vec(),
+            measured: open.measure(x, Detail::Values).unwrap_or_default(),
+        }
+    }
+
+    /// Value of term `k`, SI.
+    fn value(&self, k: usize) -> Option<f64> {
+        let pieces = self.measured.iter();
+        let own: Vec<Piece> = pieces
+            .filter(|piece| self.open.term_of(piece.index) == k && self.open.counts(piece.index))
+            .cloned()
+            .collect();
+        worst(self.open.terms()[k].index, &own)
+    }
+
+    /// Term `k` here and `term` of the study, as a missed demand.
+    fn missed(&self, study: &Study, [term, k]: [usize; 2], group: usize, share: f64) -> Missed {
+        let Role::Objective { origin, .. } = self.open.terms()[k].role else {
+            unreachable!("the terms of a shortfall are objectives")
+        };
+        let own = &study.terms()[term];
+        Missed {
+            term,
+            index: own.index,
+            condition: study.condition_name(own.condition).map(str::to_owned),
+            required: origin,
+            reached: self.value(k),
+            group,
+            share,
+            influenced: self.is_influenced(k),
+        }
+    }
+
+    /// Whether a variable changes term `k`: at this design or at some others spread over the box.
+    fn is_influenced(&self, k: usize) -> bool {
+        /// Designs beside this one: more than any box has corners in two variables.
+        const OTHERS: usize = 6;
+        let alone = self
+            .open
+            .with_roles(|i, term| (i == k).then_some(term.role));
+        let others = (1..=OTHERS).map(|i| halton(i, self.x.len()));
+        let designs = std::iter::once(self.x.clone()).chain(others);
+        let mut first: Option<Vec<f64>> = None;
+        for x in designs {
+            let Ok(measured) = alone.measure(&x, Detail::Gradients) else {
+                continue;
+            };
+            let flat = measured.iter().all(|piece| {
+                let gradient = piece.gradient.as_ref();
+                gradient.is_some_and(|slopes| slopes.iter().all(|slope| *slope == 0.0))
+            });
+            let values: Vec<f64> = measured.iter().map(|piece| piece.value).collect();
+            let same = first.as_ref().is_none_or(|first| *first == values);
+            if !flat || !same {
+                return true;
+            }
+            first = Some(values);
+        }
+        first.is_none()
+    }
+}

@@ -1,0 +1,205 @@
+//! Verdicts of `optimize`: met, out of reach, or left as given, each with what is delivered.
+
+mod support;
+
+use bogie::{
+    case::Case,
+    design::{
+        margin::value,
+        outcome::{Delivered, DesignResult},
+        procedure::design,
+    },
+    export::status,
+    index::Index,
+    optimize::{
+        archive::{Archive, Silent},
+        local::Status,
+        problem::Failure,
+    },
+    parameter::Parameter,
+    spec::Spec,
+};
+use support::assert_ratio;
+
+fn read(name: &str) -> Spec {
+    let path = format!("{}/tests/data/verdicts/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    Spec::read(&std::fs::read(&path).unwrap()).unwrap_or_else(|_| panic!("{name} is no spec"))
+}
+
+fn run(spec: &Spec) -> DesignResult {
+    design(spec, &Archive::new(&Silent)).unwrap()
+}
+
+const G: f64 = bogie::vehicle::GRAVITY;
+
+/// In turn 350 km/h is missed, because the lateral suspension that the ride wants takes speed; all at
+/// once it is met.
+#[test]
+fn the_joint_design_is_delivered_where_the_sequence_misses() {
+    let result = run(&read("met-all-at-once-only"));
+    assert!(result.met() && result.joint_in_place_of_sequence());
+    assert_eq!(result.conflict, None);
+    let joint = result.joint.as_ref().unwrap();
+    assert_eq!(result.case, joint.case);
+    let speed = result.evaluation.stability.critical_speed().unwrap();
+    assert_ratio("critical speed", speed, 350.0 / 3.6, 1e-4);
+    let in_turn = &result.stages[1];
+    assert_eq!(in_turn.explained.status, Status::Infeasible);
+    assert_eq!(status::of_run(&result), "optimal");
+}
+
+/// The vertical stroke cannot be kept; the lateral damping ratio is still chosen for the ride.
+#[test]
+fn the_objective_decides_among_the_designs_of_least_violation() {
+    let result = run(&read("one-limit-out-of-reach"));
+    assert!(!result.met());
+    let ratio = |parameter: Parameter| parameter.get(&result.case);
+    // 0.223 and 0.0662 g by a dense search over both ratios, in three digits.
+    let lateral = ratio(Parameter::SecondaryLateralDampingRatio);
+    assert!((lateral - 0.223).abs() < 1e-3, "{lateral}");
+    let vertical = ratio(Parameter::SecondaryVerticalDampingRatio);
+    assert!(vertical > 0.6 - 1e-4, "{vertical}");
+    let acceleration = value(&result.case, Index::LateralAcceleration).unwrap() / G;
+    assert!((acceleration - 0.0662).abs() < 5e-5, "{acceleration}");
+    let conflict = result.conflict.unwrap();
+    let [missed] = &conflict.demands[..] else {
+        panic!("{conflict:?}")
+    };
+    assert!(missed.influenced && missed.index == Index::SecondaryVerticalStroke);
+}
+
+/// A limit that no variable changes is named, and the rest is as good as without it.
+#[test]
+fn a_limit_without_variable_is_named_and_leaves_the_rest_alone() {
+    let mut spec = read("limit-without-variable");
+    let result = run(&spec);
+    let ratio = Parameter::SecondaryLateralDampingRatio.get(&result.case);
+    assert!((ratio - 0.219).abs() < 1e-3, "{ratio}");
+    let conflict = result.conflict.unwrap();
+    assert!(conflict.demands.iter().all(|opposed| !opposed.influenced));
+    spec.demands.remove(Index::SecondaryVerticalStroke);
+    let without = run(&spec);
+    let alone = Parameter::SecondaryLateralDampingRatio.get(&without.case);
+    // 1e-4: the tolerance on first-order conditions, on a flat optimum.
+    assert!((ratio / alone - 1.0).abs() < 1e-3, "{ratio} {alone}");
+    assert!(without.met());
+}
+
+/// The best compromise in curving of the trade-offs in turn hunts at the operating speed, so that no
+/// lateral suspension can be chosen beside it: all at once finds one that runs.
+#[test]
+fn a_compromise_that_hunts_is_not_the_last_word() {
+    let result = run(&read("compromise-unstable-in-turn"));
+    assert!(!result.met() && result.failure().is_none());
+    assert_eq!(result.delivered, Delivered::AllAtOnce);
+    assert!(result.margins.iter().all(|margin| margin.reached.is_ok()));
+    assert_eq!(status::of_run(&result), "infeasible");
+}
+
+/// Demands within the tolerance are met: nothing in the same result says that they are out of reach.
+#[test]
+fn one_tolerance_decides_whether_a_demand_is_met() {
+    let result = run(&read("met-within-tolerance"));
+    assert!(result.met() && result.conflict.is_none());
+    let statuses = result.stages.iter().map(|stage| stage.explained.status);
+    assert!(statuses.clone().all(|s| s != Status::Infeasible));
+    assert_ne!(status::of_run(&result), "infeasible");
+}
+
+/// At 500 mph every design hunts. The design stays as given, and the result says why.
+#[test]
+fn where_nothing_can_be_evaluated_the_design_stays_as_given() {
+    for order in ["in-turn", "joint"] {
+        let order = if order == "joint" { "order = \"joint\"\n" } else { "" };
+        let source = format!(
+            "[vehicle]\nbase = \"prototype\"\n[service]\nspeed = \"500 mph\"\n[design]\n{order}\
+             secondary_lateral_damping_ratio = [0.1, 0.5]\n"
+        );
+        let spec = Spec::read(source.as_bytes()).unwrap_or_else(|_| panic!("{source}"));
+        let result = run(&spec);
+        assert_eq!(result.failure(), Some(Failure::Unstable), "{order}");
+        assert!(!result.met() && result.case == spec.case);
+        assert_eq!(status::of_run(&result), "unstable");
+    }
+}
+
+/// A study whose solution has the critical speed as a further variable is followed in the next round
+/// of the coupling loop.
+#[test]
+fn lifted_solutions_are_followed_from_round_to_round() {
+    let result = run(&read("lifted-profile-followed"));
+    assert!(result.met() && result.settled && result.rounds > 1);
+}
+
+/// With an air spring K_sz, its frequency and its damping ratio change nothing in the vertical
+/// trade-off: they are named and keep their values.
+#[test]
+fn parameters_out_of_use_are_not_designed() {
+    let spec = read("air-spring-beside-k-sz");
+    let result = run(&spec);
+    let vertical = &result.stages[0];
+    assert!(vertical.explained.chosen.is_empty());
+    assert_eq!(
+        vertical.unused,
+        [
+            Parameter::SecondaryVerticalFrequency,
+            Parameter::SecondaryVerticalDampingRatio
+        ]
+    );
+}
+
+/// Relative change of an index as a parameter goes up by a share, by evaluation.
+fn relative_change(case: &Case, index: Index, parameter: Parameter, share: f64) -> f64 {
+    let at = |factor: f64| {
+        let mut moved = case.clone();
+        parameter.set(&mut moved, factor * parameter.get(case));
+        value(&moved, index).unwrap()
+    };
+    (at(1.0 + share) - at(1.0 - share)) / (2.0 * share * at(1.0))
+}
+
+/// “1 % more” of a variable is the relative change of the index that is made as good as can be, also
+/// where that is the critical speed or a damping ratio.
+#[test]
+fn elasticities_are_those_of_the_index() {
+    for (name, index) in [
+        ("critical-speed-as-objective", Index::CriticalSpeed),
+        ("damping-ratio-as-objective", Index::KinematicDampingRatio),
+    ] {
+        let result = run(&read(name));
+        let explained = &result.stages[0].explained;
+        assert_eq!(explained.status, Status::Optimal, "{name}");
+        for chosen in &explained.chosen {
+            let gain = explained.gain_per_share(chosen).unwrap();
+            let change = relative_change(&result.case, index, chosen.parameter, 1e-4);
+            // 1e-3: the critical speed is found to 1e-8, over a difference of 2e-4.
+            assert!(
+                (gain - change).abs() < 1e-3 * change.abs().max(1.0),
+                "{name} {}: {gain} {change}",
+                chosen.variable.symbol
+            );
+        }
+    }
+}
+
+/// The price, multiplier and elasticities of a required critical speed are those of the speed.
+#[test]
+fn prices_of_a_critical_speed_are_in_terms_of_the_speed() {
+    let spec = support::problem("intercity-130mph");
+    let result = run(&spec);
+    let stage = &result.stages[1].explained;
+    let price = stage.prices.iter().find(|p| p.index == Index::CriticalSpeed);
+    let price = price.unwrap();
+    assert_ratio("multiplier", price.multiplier, price.per_unit * price.bound, 1e-12);
+    for (chosen, elasticity) in stage.chosen.iter().zip(&price.elasticities) {
+        let mut case = result.case.clone();
+        // The stage was solved beside the lateral suspension of the round before, within 1e-4.
+        chosen.parameter.set(&mut case, chosen.value);
+        let change = relative_change(&case, Index::CriticalSpeed, chosen.parameter, 1e-4);
+        assert!(
+            (elasticity - change).abs() < 2e-3,
+            "{}: {elasticity} {change}",
+            chosen.variable.symbol
+        );
+    }
+}
