@@ -8,7 +8,8 @@
 //! M_z = −f12 ψ + f22 σ
 //! ```
 //!
-//! The normal forces add, for the axle, −(W_A/a)(a11 + Δ) y laterally and +W_A a δ0 ψ in yaw.
+//! The normal forces N0 ± ΔN of the two wheels add, for the axle, −(W_A/a)(a11 + Δ) y − 2 ΔN δ0
+//! laterally and +W_A a δ0 ψ in yaw.
 
 use nalgebra::DVector;
 
@@ -21,6 +22,15 @@ pub enum Side {
     Outer,
     /// On the inner rail.
     Inner,
+}
+
+impl std::fmt::Display for Side {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Outer => "outer",
+            Self::Inner => "inner",
+        })
+    }
 }
 
 impl Side {
@@ -101,6 +111,8 @@ impl CurvingModel {
         let c = self.contact[0];
         self.stiffness[(y, y)] += axle_load / a * (c.a11 + c.delta);
         self.stiffness[(psi, psi)] -= axle_load * a * c.delta_0;
+        // Equal loads lean on opposite contact angles and cancel; the transferred load 2 ΔN does not.
+        self.load[y] -= (self.wheel_load[0] - self.wheel_load[1]) * c.delta_0;
     }
 
     /// Creep forces (F_x, F_y) of a wheel as affine functions of curvature on a segment:
