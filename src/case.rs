@@ -28,8 +28,15 @@ pub struct Service {
     /// Degree of the curve in which forces on the rails are judged, rad; `None`: the tightest
     /// that the vehicle runs without flange contact or slip.
     pub curve: Option<f64>,
-    /// φ_d there, rad.
-    pub cant_deficiency: f64,
+    /// φ_d there, rad; `None`: zero.
+    pub cant_deficiency: Option<f64>,
+}
+
+impl Service {
+    /// φ_d in the service curve, rad: zero unless given.
+    pub fn cant_deficiency(&self) -> f64 {
+        self.cant_deficiency.unwrap_or(0.0)
+    }
 }
 
 /// How the truck frame rolls in the lateral model.
@@ -102,7 +109,7 @@ impl Case {
                 speed: 110.0 * crate::units::us::MILE / 3600.0,
                 track: Track::fra_class(6).expect("class 6 exists"),
                 curve: None,
-                cant_deficiency: 0.0,
+                cant_deficiency: None,
             },
             vehicle: Vehicle::prototype(),
             wheel_rail: WheelRail::default(),

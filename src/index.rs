@@ -36,6 +36,9 @@ pub enum Index {
     FlexibleModeSeparation,
     /// Secondary lateral stroke, three standard deviations (3.3.4).
     SecondaryLateralStroke,
+    /// Secondary lateral stroke in the service curve: quasi-static, and three standard deviations of
+    /// random motion.
+    SecondaryLateralStrokeInCurve,
     /// Secondary vertical stroke, three standard deviations (3.3.4).
     SecondaryVerticalStroke,
     /// Primary lateral stroke, three standard deviations (3.3.4).
@@ -56,6 +59,9 @@ pub enum Index {
     NetAxleLOverV,
     /// Largest share of μN that a wheel uses in the service curve.
     AdhesionUsed,
+    /// Largest ratio to flange contact (|y_w| over the clearance) or slip (share of μN) in the service
+    /// curve: above 1 the linear model does not cover it.
+    CurveLimitRatio,
     /// Static deflection of the secondary springs under the carbody.
     SecondaryStaticDeflection,
     /// Static deflection of the primary springs under carbody and frames.
@@ -109,7 +115,7 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 impl Index {
     /// All indices.
-    pub const ALL: [Self; 26] = [
+    pub const ALL: [Self; 28] = [
         Self::CriticalSpeed,
         Self::DegreeCurve,
         Self::FlangeLimitedCurve,
@@ -124,6 +130,7 @@ impl Index {
         Self::FrequencySeparation,
         Self::FlexibleModeSeparation,
         Self::SecondaryLateralStroke,
+        Self::SecondaryLateralStrokeInCurve,
         Self::SecondaryVerticalStroke,
         Self::PrimaryLateralStroke,
         Self::PrimaryLongitudinalStroke,
@@ -134,6 +141,7 @@ impl Index {
         Self::TruckSideLOverV,
         Self::NetAxleLOverV,
         Self::AdhesionUsed,
+        Self::CurveLimitRatio,
         Self::SecondaryStaticDeflection,
         Self::PrimaryStaticDeflection,
     ];
@@ -174,6 +182,7 @@ impl Index {
             Self::FrequencySeparation => row("requirements.frequency_separation", "truck over carbody frequency", Dimensionless, AtLeast, Statics),
             Self::FlexibleModeSeparation => row("requirements.flexible_mode_separation", "separation of truck and flexible modes", Dimensionless, AtLeast, Statics),
             Self::SecondaryLateralStroke => row("limits.secondary_lateral_stroke", "secondary lateral stroke, 3σ", Stroke, AtMost, LateralRide),
+            Self::SecondaryLateralStrokeInCurve => row("limits.secondary_lateral_stroke_in_curve", "secondary lateral stroke in curve, with 3σ", Stroke, AtMost, LateralRide),
             Self::SecondaryVerticalStroke => row("limits.secondary_vertical_stroke", "secondary vertical stroke, 3σ", Stroke, AtMost, VerticalRide),
             Self::PrimaryLateralStroke => row("limits.primary_lateral_stroke", "primary lateral stroke, 3σ", Stroke, AtMost, LateralRide),
             Self::PrimaryLongitudinalStroke => row("limits.primary_longitudinal_stroke", "primary longitudinal stroke, 3σ", Stroke, AtMost, LateralRide),
@@ -184,6 +193,7 @@ impl Index {
             Self::TruckSideLOverV => row("limits.truck_side_l_over_v", "L/V of a truck side", Dimensionless, AtMost, Curving),
             Self::NetAxleLOverV => row("limits.net_axle_l_over_v", "net axle L/V", Dimensionless, AtMost, Curving),
             Self::AdhesionUsed => row("limits.adhesion_used", "adhesion used", Dimensionless, AtMost, Curving),
+            Self::CurveLimitRatio => row("limits.curve_limit_ratio", "ratio to flange contact or slip", Dimensionless, AtMost, Curving),
             Self::SecondaryStaticDeflection => row("limits.secondary_static_deflection", "secondary static deflection", Stroke, AtMost, Statics),
             Self::PrimaryStaticDeflection => row("limits.primary_static_deflection", "primary static deflection", Stroke, AtMost, Statics),
         }
@@ -232,6 +242,24 @@ impl Index {
     /// Part of the behaviour that it belongs to.
     pub const fn behaviour(self) -> Behaviour {
         self.row().behaviour
+    }
+
+    /// Whether it exists only where the service gives a curve.
+    pub const fn needs_service_curve(self) -> bool {
+        matches!(self, Self::SecondaryLateralStrokeInCurve)
+    }
+
+    /// Whether it is a force or stroke in the service curve, which has no verdict where the model does
+    /// not cover that curve.
+    pub const fn is_in_service_curve(self) -> bool {
+        matches!(
+            self,
+            Self::WheelLOverV
+                | Self::TruckSideLOverV
+                | Self::NetAxleLOverV
+                | Self::AdhesionUsed
+                | Self::SecondaryLateralStrokeInCurve
+        )
     }
 
     /// Scale on which it is compared.

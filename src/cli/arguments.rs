@@ -277,18 +277,14 @@ pub struct Curve {
     #[command(flatten)]
     pub run: Run,
 
-    /// Degree of curve (default: the tightest without flange contact or slip)
+    /// Degree of curve (default: that of [service], or the tightest without flange contact or slip)
     #[arg(long, value_name = "DEGREES")]
     pub degree: Option<f64>,
 
-    /// Cant deficiency, as an angle ("3 deg") or a height over 56 in ("3 in")
-    #[arg(
-        long,
-        value_name = "ANGLE|HEIGHT",
-        default_value = "0 deg",
-        allow_hyphen_values = true
-    )]
-    pub cant_deficiency: String,
+    /// Cant deficiency, as an angle ("3 deg") or a height over 56 in ("3 in") (default: that of
+    /// [service], or 0)
+    #[arg(long, value_name = "ANGLE|HEIGHT", allow_hyphen_values = true)]
+    pub cant_deficiency: Option<String>,
 }
 
 /// Options of `psd`.

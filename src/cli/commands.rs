@@ -91,7 +91,8 @@ pub fn curve(call: &Curve) -> Result<Done, Failure> {
             "--degree {degree}: expected {LEAST_DEGREE} to {MAX_DEGREE}"
         )));
     }
-    let cant_deficiency = cant_deficiency(&call.cant_deficiency)?;
+    let cant_deficiency = call.cant_deficiency.as_deref().map(cant_deficiency);
+    let cant_deficiency = cant_deficiency.transpose()?;
     let curving = Curving::new(&spec.case, call.degree, cant_deficiency).map_err(failed)?;
     deliver(
         &call.run,

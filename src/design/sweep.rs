@@ -6,14 +6,14 @@
 use std::ops::Range;
 
 use super::{
-    measure::{Wanted, measure_each, worst},
+    measure::{Wanted, absence, measure_each, worst},
     sequence::Sequence,
     study::Study,
     tasks::Tasks,
 };
 use crate::{
     case::Case,
-    index::{Demands, Index},
+    index::{Demand, Demands, Index},
     optimize::problem::{Failure, Piece, Problem},
     parameter::Parameter,
     spec::Spec,
@@ -44,7 +44,40 @@ pub struct Design {
     /// Value of every index, SI, in the nominal condition, or why it has none.
     pub values: Vec<Result<f64, NoValue>>,
     /// Whether it meets all that is asked, in every condition; `None` where nothing is.
-    pub meets_all: Option<bool>,
+    pub meets_all: Option<Meets>,
+}
+
+/// Whether a design meets what is asked. The worse of several answers is the greater.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Meets {
+    /// All of it.
+    Yes,
+    /// All that the models cover; of the rest they have no verdict.
+    NotAssessed,
+    /// Not all of it.
+    No,
+}
+
+impl Meets {
+    /// Name in files.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::Yes => "yes",
+            Self::NotAssessed => "not-assessed",
+            Self::No => "no",
+        }
+    }
+
+    /// How a measured index stands to a demand; one without pieces does not exist here, and meets it.
+    fn new(demand: Demand, measured: Result<Vec<Piece>, Failure>) -> Self {
+        match measured.map(|pieces| worst(demand.index, &pieces)) {
+            Ok(Some(reached)) if !demand.met_by(reached) => Self::No,
+            Ok(None) if !demand.index.needs_service_curve() => Self::No,
+            Ok(_) => Self::Yes,
+            Err(failure) if failure.is_not_covered() => Self::NotAssessed,
+            Err(_) => Self::No,
+        }
+    }
 }
 
 /// Why a design has no value of an index.
@@ -151,7 +184,7 @@ impl<'a> Sweep<'a> {
         let study = &self.studies[profile];
         let case = study.design(&x);
         let mut values = Vec::new();
-        let mut meets = true;
+        let mut meets = Meets::Yes;
         for (condition, (demands, wanted)) in self.demands.iter().zip(&self.wanted).enumerate() {
             if wanted.is_empty() {
                 continue;
@@ -166,11 +199,9 @@ impl<'a> Sweep<'a> {
                 let value = |index: &Index| value(&applied, *index, &of(*index)?);
                 values = self.indices.iter().map(value).collect();
             }
-            meets &= demands.iter().all(|demand| {
-                let reached = of(demand.index).ok();
-                let reached = reached.and_then(|pieces| worst(demand.index, &pieces));
-                reached.is_some_and(|reached| demand.met_by(reached))
-            });
+            for demand in demands.iter() {
+                meets = meets.max(Meets::new(demand, of(demand.index)));
+            }
         }
         Design {
             number,
@@ -183,7 +214,7 @@ impl<'a> Sweep<'a> {
 
 /// Value of an index from its pieces. What only bounds it is none.
 fn value(case: &Case, index: Index, pieces: &[Piece]) -> Result<f64, NoValue> {
-    let value = worst(index, pieces).ok_or(Failure::NoMode)?;
+    let value = worst(index, pieces).ok_or_else(|| absence(index))?;
     if !value.is_finite() {
         return Err(Failure::NotFinite.into());
     }

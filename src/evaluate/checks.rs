@@ -1,12 +1,13 @@
 //! Comparison of a design with the constraints of 3.3 and the separations of 3.5.3 and 4.3.
 
+mod curves;
+
 use super::{
-    Evaluation, curving::CurvingState, equalization::wheel_load_changes, limits,
+    Evaluation, curving::CurveStatus, equalization::wheel_load_changes, limits,
     vertical_modes::flexible_separations,
 };
 use crate::{
-    case::Case, closed_form::natural_frequencies as closed, track::SUPERELEVATION_BASE,
-    units::Quantity, vehicle::Vehicle,
+    case::Case, closed_form::natural_frequencies as closed, units::Quantity, vehicle::Vehicle,
 };
 
 /// One constraint and how the design stands to it.
@@ -18,23 +19,52 @@ pub struct Check {
     pub source: &'static str,
     /// Kind of quantity, for units.
     pub quantity: Quantity,
-    /// What the design has, SI.
-    pub value: f64,
+    /// What the design has, SI; in a curve that the model does not cover, the curve's status.
+    pub value: Result<f64, CurveStatus>,
     /// What it should have, SI.
     pub limit: f64,
     /// Whether the value should be at least, rather than at most, the limit.
     pub at_least: bool,
 }
 
+/// How a design stands to a constraint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// It satisfies it.
+    Ok,
+    /// It does not.
+    Exceeded,
+    /// The model does not cover what is compared.
+    NotAssessed,
+}
+
+impl Verdict {
+    /// Name in files.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::Ok => "ok",
+            Self::Exceeded => "exceeded",
+            Self::NotAssessed => "not-assessed",
+        }
+    }
+}
+
 impl Check {
-    /// Whether the design satisfies it.
-    pub fn passed(&self) -> bool {
-        let excess = if self.at_least {
-            self.limit - self.value
-        } else {
-            self.value - self.limit
+    /// How the design stands to it.
+    pub fn verdict(&self) -> Verdict {
+        let Ok(value) = self.value else {
+            return Verdict::NotAssessed;
         };
-        excess <= ROUNDING * self.limit
+        let excess = if self.at_least {
+            self.limit - value
+        } else {
+            value - self.limit
+        };
+        if excess <= ROUNDING * self.limit {
+            Verdict::Ok
+        } else {
+            Verdict::Exceeded
+        }
     }
 }
 
@@ -45,7 +75,8 @@ const ROUNDING: f64 = 1e-5;
 pub fn checks(case: &Case, evaluation: &Evaluation) -> Vec<Check> {
     let mut list = Vec::new();
     strokes(&mut list, evaluation);
-    curving(&mut list, case, evaluation);
+    curves::forces(&mut list, evaluation);
+    curves::strokes(&mut list, case, evaluation);
     equalization(&mut list, case);
     frequencies(&mut list, case, evaluation);
     list
@@ -62,7 +93,7 @@ fn at_most(
         name: name.into(),
         source,
         quantity,
-        value,
+        value: Ok(value),
         limit,
         at_least: false,
     }
@@ -115,70 +146,6 @@ fn strokes(list: &mut Vec<Check>, evaluation: &Evaluation) {
             &ride.secondary_stroke,
             limits::SECONDARY_STOP,
         );
-    }
-}
-
-/// L/V and static strokes in the tightest curve run without flanging or slip, strokes also at the
-/// FRA's cant deficiency.
-fn curving(list: &mut Vec<Check>, case: &Case, evaluation: &Evaluation) {
-    let Ok(limited) = &evaluation.curving else {
-        return;
-    };
-    let degree = limited.degree();
-    let angle = limits::CANT_DEFICIENCY / SUPERELEVATION_BASE;
-    if let Ok(state) = CurvingState::new(case, degree, 0.0) {
-        let leading = state.wheels[0][0].lateral_to_vertical();
-        for (name, value, limit) in [
-            ("L/V leading outer wheel", leading, limits::WHEEL_L_OVER_V),
-            (
-                "L/V truck side",
-                state.truck_side_lateral_to_vertical(),
-                limits::TRUCK_SIDE_L_OVER_V,
-            ),
-            (
-                "net axle L/V",
-                state.net_axle_lateral_to_vertical(),
-                limits::NET_AXLE_L_OVER_V,
-            ),
-        ] {
-            let name = format!("{name} at {degree:.2}°");
-            list.push(at_most(
-                name,
-                "3.3.3",
-                Quantity::Dimensionless,
-                value,
-                limit,
-            ));
-        }
-    }
-    if let Ok(state) = CurvingState::new(case, degree, angle) {
-        let largest = |strokes: &[f64]| strokes.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
-        for (name, strokes, limit) in [
-            (
-                "primary lateral",
-                &state.primary_lateral_stroke[..],
-                limits::PRIMARY_STOP,
-            ),
-            (
-                "primary longitudinal",
-                &state.primary_longitudinal_stroke[..],
-                limits::PRIMARY_STOP,
-            ),
-            (
-                "secondary lateral",
-                &state.secondary_lateral_stroke[..],
-                limits::SECONDARY_STOP,
-            ),
-        ] {
-            let name = format!("{name} stroke, {degree:.2}° with 3 in cant deficiency");
-            list.push(at_most(
-                name,
-                "3.3.4",
-                Quantity::Stroke,
-                largest(strokes),
-                limit,
-            ));
-        }
     }
 }
 
@@ -240,7 +207,7 @@ fn frequencies(list: &mut Vec<Check>, case: &Case, evaluation: &Evaluation) {
         name,
         source,
         quantity: Quantity::Dimensionless,
-        value,
+        value: Ok(value),
         limit,
         at_least: true,
     };

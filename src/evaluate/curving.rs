@@ -1,8 +1,16 @@
 //! Limits of steady-state curving: flange contact and wheel slip (4.5.2, 3.3.3).
 
+mod service;
+mod state;
+mod status;
+
+pub use service::{ServiceCurve, level_curves};
+pub use state::CurvingState;
+pub use status::{AT_LIMIT, CurveStatus};
+
 use crate::{
     case::Case,
-    dynamics::curving::{Breakaway, CurvingError, CurvingModel, Segment, Side, WheelForces},
+    dynamics::curving::{CurvingError, CurvingModel, Segment, Side},
     track::{MAX_DEGREE, curvature_of_degree, degree_of_curvature},
 };
 
@@ -19,8 +27,7 @@ impl std::fmt::Display for Limit {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Flange(i) => write!(f, "flange contact, wheelset {}", i + 1),
-            Self::Slip(i, Side::Outer) => write!(f, "slip, wheelset {} outer wheel", i + 1),
-            Self::Slip(i, Side::Inner) => write!(f, "slip, wheelset {} inner wheel", i + 1),
+            Self::Slip(i, side) => write!(f, "slip, wheelset {} {side} wheel", i + 1),
         }
     }
 }
@@ -182,129 +189,5 @@ fn reserve(model: &CurvingModel, limit: Limit, curvature: f64) -> f64 {
         Limit::Flange(i) => 1.0 - used(i, Side::Outer).max(used(i, Side::Inner)),
         Limit::Slip(i, Side::Outer) => 1.0 - used(i, Side::Inner),
         Limit::Slip(i, Side::Inner) => 1.0 - used(i, Side::Outer),
-    }
-}
-
-/// The vehicle in one curve.
-#[derive(Debug, Clone)]
-pub struct CurvingState {
-    /// D, degrees.
-    pub degree: f64,
-    /// φ_d, rad.
-    pub cant_deficiency: f64,
-    /// y_w of wheelsets 1–4, m, outward positive.
-    pub wheelset_lateral: [f64; 4],
-    /// ψ_w of wheelsets 1–4 from the radial line, rad.
-    pub wheelset_yaw: [f64; 4],
-    /// y_t of trucks 1, 2, m.
-    pub truck_lateral: [f64; 2],
-    /// ψ_t of trucks 1, 2, rad.
-    pub truck_yaw: [f64; 2],
-    /// y_c, m; ψ_c, φ_c, rad.
-    pub carbody: [f64; 3],
-    /// Primary lateral strokes, wheelsets 1–4, m.
-    pub primary_lateral_stroke: [f64; 4],
-    /// Primary longitudinal strokes, wheelsets 1–4, m.
-    pub primary_longitudinal_stroke: [f64; 4],
-    /// Secondary lateral strokes, trucks 1, 2, m.
-    pub secondary_lateral_stroke: [f64; 2],
-    /// Torque of the secondary yaw element on each truck, N m.
-    pub secondary_yaw_torque: [f64; 2],
-    /// Whether it is stuck or slips.
-    pub breakaway: [Breakaway; 2],
-    /// Forces on the wheels, [outer, inner] of wheelsets 1–4.
-    pub wheels: [[WheelForces; 2]; 4],
-}
-
-impl CurvingState {
-    /// State of a case in a curve of `degree` degrees at cant deficiency φ_d, rad.
-    ///
-    /// # Errors
-    ///
-    /// [`CurvingError`] if there is no steady-state solution.
-    pub fn new(case: &Case, degree: f64, cant_deficiency: f64) -> Result<Self, CurvingError> {
-        let model = CurvingModel::new(case, cant_deficiency)?;
-        let curvature = curvature_of_degree(degree);
-        let segment = model.segment_at(curvature);
-        let x = |index: usize| segment.displacement(index, curvature);
-        let torque = [0, 1].map(|j| model.secondary_yaw(curvature, j).0);
-        Ok(Self {
-            degree,
-            cant_deficiency,
-            wheelset_lateral: std::array::from_fn(&x),
-            wheelset_yaw: std::array::from_fn(|i| x(4 + i)),
-            truck_lateral: std::array::from_fn(|j| x(8 + j)),
-            truck_yaw: std::array::from_fn(|j| x(10 + j)),
-            carbody: std::array::from_fn(|k| x(12 + k)),
-            primary_lateral_stroke: std::array::from_fn(|i| {
-                model.primary_lateral_stroke(curvature, i)
-            }),
-            primary_longitudinal_stroke: std::array::from_fn(|i| {
-                model.primary_longitudinal_stroke(curvature, i)
-            }),
-            secondary_lateral_stroke: std::array::from_fn(|j| {
-                model.secondary_lateral_stroke(curvature, j)
-            }),
-            secondary_yaw_torque: torque,
-            breakaway: segment.breakaway,
-            wheels: std::array::from_fn(|i| {
-                Side::BOTH.map(|side| model.wheel_forces(curvature, i, side))
-            }),
-        })
-    }
-
-    /// Largest L/V of any wheel.
-    pub fn wheel_lateral_to_vertical(&self) -> f64 {
-        self.wheels
-            .iter()
-            .flatten()
-            .map(WheelForces::lateral_to_vertical)
-            .fold(0.0, f64::max)
-    }
-
-    /// Sums of lateral and of vertical forces on some wheels, (wheelset, side), N.
-    pub fn sums(&self, wheels: &[(usize, usize)]) -> [f64; 2] {
-        let forces = wheels.iter().map(|&(i, side)| &self.wheels[i][side]);
-        [
-            forces.clone().map(|wheel| wheel.lateral).sum(),
-            forces.map(|wheel| wheel.vertical).sum(),
-        ]
-    }
-
-    /// (L1 + L2)/(V1 + V2) of one side of a truck, signed outward.
-    pub fn truck_side(&self, truck: usize, side: Side) -> f64 {
-        let [lateral, vertical] =
-            self.sums(&[2 * truck, 2 * truck + 1].map(|i| (i, side as usize)));
-        lateral / vertical
-    }
-
-    /// L/V of all truck sides, signed outward: outer and inner of truck 1, then of truck 2.
-    pub fn truck_sides(&self) -> [f64; 4] {
-        [
-            (0, Side::Outer),
-            (0, Side::Inner),
-            (1, Side::Outer),
-            (1, Side::Inner),
-        ]
-        .map(|(j, side)| self.truck_side(j, side))
-    }
-
-    /// Largest L/V of any truck side.
-    pub fn truck_side_lateral_to_vertical(&self) -> f64 {
-        self.truck_sides()
-            .map(f64::abs)
-            .into_iter()
-            .fold(0.0, f64::max)
-    }
-
-    /// Net lateral force over vertical load of axle `i`.
-    pub fn net_axle(&self, i: usize) -> f64 {
-        let [lateral, vertical] = self.sums(&[(i, 0), (i, 1)]);
-        lateral.abs() / vertical
-    }
-
-    /// Largest net axle L/V.
-    pub fn net_axle_lateral_to_vertical(&self) -> f64 {
-        (0..4).map(|i| self.net_axle(i)).fold(0.0, f64::max)
     }
 }

@@ -17,11 +17,12 @@ pub mod panels;
 pub mod passenger_ride;
 pub mod response;
 pub mod ride;
+pub mod stroke_in_curve;
 pub mod vertical_modes;
 pub mod warnings;
 
 use critical_speed::Stability;
-use curving::CurvingLimits;
+use curving::{CurvingLimits, ServiceCurve, level_curves};
 use lateral_modes::LateralModes;
 use passenger_ride::PassengerRide;
 use ride::{LateralRide, NoRide, VerticalRide};
@@ -43,6 +44,8 @@ pub struct Evaluation {
     pub vertical_modes: Vec<VerticalMode>,
     /// Flange- and slip-limited curves at zero cant deficiency.
     pub curving: Result<CurvingLimits, CurvingError>,
+    /// The vehicle in the curve of its service.
+    pub service_curve: Result<ServiceCurve, CurvingError>,
     /// Lateral ride.
     pub lateral: Result<LateralRide, NoRide>,
     /// What passengers feel of it at c.g., front, rear; `None` where there is none.
@@ -67,9 +70,15 @@ impl Evaluation {
         let vertical_poles = Poles::at(&vertical.forced, speed)?;
         let modes = LateralModes::new(&lateral, case, &lateral_poles)?;
         let vertical_modes = vertical_modes::vertical_modes(&vertical, &vertical_poles)?;
+        let level = level_curves(case);
+        let service_curve = match &level {
+            Ok(level) => ServiceCurve::beside(case, level),
+            Err(_) => ServiceCurve::of(case),
+        };
         Ok(Self {
             stability: Stability::new(&lateral, &lateral_poles, case.model.speed_range, 1.0)?,
-            curving: CurvingLimits::new(case, 0.0),
+            curving: level.map(|(_, limits)| limits),
+            service_curve,
             lateral: LateralRide::from_poles(&lateral, case, &lateral_poles),
             lateral_passengers: PassengerRide::lateral(&lateral, case, &lateral_poles).ok(),
             vertical: VerticalRide::from_poles(&vertical, case, &vertical_poles),

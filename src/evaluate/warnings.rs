@@ -1,6 +1,6 @@
 //! Doubts about a result that a designer should see beside it.
 
-use super::{Evaluation, limits, ride::NoRide};
+use super::{Evaluation, curving::CurveStatus, limits, ride::NoRide};
 use crate::{
     case::{Case, TruckRoll},
     closed_form::{natural_frequencies::truck_roll, unusual::secondary_oddities},
@@ -47,6 +47,17 @@ pub fn warnings(case: &Case, evaluation: &Evaluation) -> Vec<String> {
                 clearance / largest
             ));
         }
+    }
+    if let Ok(curve) = &evaluation.service_curve
+        && curve.status != CurveStatus::WithinModel
+    {
+        list.push(format!(
+            "in a curve of {:.2}° at {:.2}° cant deficiency the linear model does not hold ({}): it \
+             gives no forces and strokes there",
+            curve.degree,
+            curve.cant_deficiency.to_degrees(),
+            curve.status
+        ));
     }
     let rides = [
         ("lateral", evaluation.lateral.as_ref().err()),

@@ -1,37 +1,73 @@
 //! `bogie curve`: the vehicle in a curve, its limits, and the performance boundary.
 
+mod text;
+
 use serde_json::{Value, json};
 
-use super::{
-    evaluation_text::title,
-    number::{both, significant},
-    sheet::Sheet,
-};
 use crate::{
     case::Case,
     dynamics::curving::{Breakaway, CurvingError, WheelForces},
-    evaluate::curving::{CurvingLimits, CurvingState, LimitedCurve},
-    track::{SUPERELEVATION_BASE, curvature_of_degree, fra_speed_limit},
-    units::Quantity,
+    evaluate::curving::{CurveStatus, CurvingLimits, CurvingState, LimitedCurve, level_curves},
+    track::curvature_of_degree,
 };
 
 /// What `bogie curve` shows.
 #[derive(Debug, Clone)]
 pub struct Curving {
-    /// The vehicle in one curve.
-    pub state: CurvingState,
+    /// Which curve is shown.
+    pub shown: Shown,
+    /// D, degrees; `None` where the tightest curve was asked for and a wheel is lifted.
+    pub degree: Option<f64>,
+    /// φ_d, rad.
+    pub cant_deficiency: f64,
+    /// The vehicle in it; the status where a wheel is lifted.
+    pub state: Result<CurvingState, CurveStatus>,
     /// Limits at the same cant deficiency.
-    pub limits: CurvingLimits,
-    /// Limits at other cant deficiencies: the boundary of Figure 4.5.5.
-    pub boundary: Vec<CurvingLimits>,
+    pub limits: Result<CurvingLimits, CurveStatus>,
+    /// Cant deficiencies, rad, and the limits there: the boundary of Figure 4.5.5.
+    pub boundary: Vec<(f64, Result<CurvingLimits, CurveStatus>)>,
+}
+
+/// Which curve is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shown {
+    /// The one asked for.
+    Asked,
+    /// That of the service.
+    Service,
+    /// The tightest without flange contact or slip at zero cant deficiency, which stands for that of
+    /// the service where it gives none.
+    TightestAtZero,
+    /// The tightest without flange contact or slip at the cant deficiency shown.
+    TightestHere,
+}
+
+impl std::fmt::Display for Shown {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Asked => "curve asked for",
+            Self::Service => "service curve",
+            Self::TightestAtZero => "tightest curve at zero cant deficiency",
+            Self::TightestHere => "tightest curve at this cant deficiency",
+        })
+    }
 }
 
 /// Largest cant deficiency of the boundary, degrees, and its steps.
 const BOUNDARY: (f64, usize) = (6.0, 24);
 
+/// A result, or the status of a vehicle with a lifted wheel.
+fn or_lifted<T>(found: Result<T, CurvingError>) -> Result<Result<T, CurveStatus>, CurvingError> {
+    match found {
+        Ok(found) => Ok(Ok(found)),
+        Err(CurvingError::WheelLifted(side)) => Ok(Err(CurveStatus::WheelLifted(side))),
+        Err(error @ (CurvingError::Singular | CurvingError::NoConsistentState)) => Err(error),
+    }
+}
+
 impl Curving {
-    /// A case in a curve of `degree` degrees (default: the governing limit's) at a cant deficiency
-    /// φ_d, rad.
+    /// A case in a curve of `degree` degrees at a cant deficiency φ_d, rad. Without one of them that of
+    /// the service; without a curve there either, the tightest without flange contact or slip.
     ///
     /// # Errors
     ///
@@ -39,178 +75,130 @@ impl Curving {
     pub fn new(
         case: &Case,
         degree: Option<f64>,
-        cant_deficiency: f64,
+        cant_deficiency: Option<f64>,
     ) -> Result<Self, CurvingError> {
-        let limits = CurvingLimits::new(case, cant_deficiency)?;
-        let degree = degree.unwrap_or_else(|| limits.degree());
+        let here = cant_deficiency.unwrap_or_else(|| case.service.cant_deficiency());
+        let limits = or_lifted(CurvingLimits::new(case, here))?;
+        let service = case.service.curve.map(f64::to_degrees);
+        let (shown, degree) = match (degree, service, cant_deficiency) {
+            (Some(degree), _, _) => (Shown::Asked, Some(degree)),
+            (None, Some(degree), _) => (Shown::Service, Some(degree)),
+            (None, None, None) => {
+                let (_, level) = level_curves(case)?;
+                (Shown::TightestAtZero, Some(level.degree()))
+            }
+            (None, None, Some(_)) => {
+                let tightest = limits.as_ref().ok().map(CurvingLimits::degree);
+                (Shown::TightestHere, tightest)
+            }
+        };
+        let state = match (degree, &limits) {
+            (Some(degree), _) => or_lifted(CurvingState::new(case, degree, here))?,
+            (None, Err(status)) => Err(*status),
+            (None, Ok(limits)) => Ok(CurvingState::new(case, limits.degree(), here)?),
+        };
         let (largest, steps) = BOUNDARY;
-        let boundary = (0..=steps)
-            .map(|i| CurvingLimits::new(case, (largest * i as f64 / steps as f64).to_radians()))
-            .collect::<Result<_, _>>()?;
+        let boundary = (0..=steps).map(|i| {
+            let angle = (largest * i as f64 / steps as f64).to_radians();
+            Ok((angle, or_lifted(CurvingLimits::new(case, angle))?))
+        });
         Ok(Self {
-            state: CurvingState::new(case, degree, cant_deficiency)?,
+            shown,
+            degree,
+            cant_deficiency: here,
+            state,
             limits,
-            boundary,
+            boundary: boundary.collect::<Result<_, _>>()?,
         })
     }
 
-    /// As text.
-    pub fn text(&self, name: &str, case: &Case) -> String {
-        let state = &self.state;
-        let mut sheet = Sheet::new(&title(name, case));
-        let radius = both(Quantity::Length, 1.0 / curvature_of_degree(state.degree));
-        let inches = state.cant_deficiency * SUPERELEVATION_BASE / 0.0254;
-        sheet.heading(&format!(
-            "Steady curve to the right, D = {}° (R {}, {}), cant deficiency {}° ({} in)",
-            significant(state.degree, 4),
-            radius[0],
-            radius[1],
-            significant(state.cant_deficiency.to_degrees(), 3),
-            significant(inches, 3),
-        ));
-        let limit = fra_speed_limit(6.0 * 0.0254, 3.0 * 0.0254, state.degree);
-        let [si, us] = both(Quantity::Speed, limit);
-        sheet.line(&format!(
-            "FRA speed limit with 6 in superelevation and 3 in unbalance: {si} ({us})"
-        ));
-        self.motion(&mut sheet);
-        self.wheels(&mut sheet);
-        self.trucks(&mut sheet);
-        sheet.heading("Performance boundary: first limit met as the curve tightens");
-        let rows: Vec<Vec<String>> = self.boundary.iter().map(boundary_row).collect();
-        sheet.table(
-            &[
-                "cant deficiency °",
-                "in",
-                "flange °",
-                "wheelset",
-                "slip °",
-                "wheel",
-                "left at other wheel %",
-            ],
-            &[3, 5],
-            &rows,
-        );
-        sheet.finish()
-    }
-
-    fn motion(&self, sheet: &mut Sheet) {
-        let state = &self.state;
-        let mm = |x: f64| significant(1e3 * x, 4);
-        let inch = |x: f64| significant(x / 0.0254, 3);
-        let mrad = |x: f64| significant(1e3 * x, 4);
-        let rows: Vec<Vec<String>> = (0..4)
-            .map(|i| {
-                vec![
-                    format!("wheelset {}", i + 1),
-                    mm(state.wheelset_lateral[i]),
-                    inch(state.wheelset_lateral[i]),
-                    mrad(state.wheelset_yaw[i]),
-                    mm(state.primary_lateral_stroke[i]),
-                    mm(state.primary_longitudinal_stroke[i]),
-                ]
-            })
-            .collect();
-        sheet.table(
-            &[
-                "",
-                "y mm",
-                "y in",
-                "yaw mrad",
-                "primary lateral mm",
-                "longitudinal mm",
-            ],
-            &[],
-            &rows,
-        );
-    }
-
-    fn wheels(&self, sheet: &mut Sheet) {
-        let kn = |x: f64| significant(x / 1e3, 4);
-        let mut rows = Vec::new();
-        for (i, wheels) in self.state.wheels.iter().enumerate() {
-            for (side, w) in ["outer", "inner"].into_iter().zip(wheels) {
-                rows.push(vec![
-                    format!("wheelset {} {side}", i + 1),
-                    kn(w.longitudinal_creep),
-                    kn(w.lateral_creep),
-                    significant(100.0 * w.adhesion_used, 3),
-                    kn(w.vertical),
-                    significant(w.lateral_to_vertical(), 3),
-                ]);
-            }
+    /// Whether the model covers what is shown.
+    pub fn status(&self) -> CurveStatus {
+        match &self.state {
+            Ok(state) => state.status,
+            Err(status) => *status,
         }
-        sheet.table(
-            &["", "F_x kN", "F_y kN", "% of μN", "V kN", "L/V"],
-            &[],
-            &rows,
-        );
     }
 
-    fn trucks(&self, sheet: &mut Sheet) {
-        let state = &self.state;
-        let rows: Vec<Vec<String>> = (0..2)
-            .map(|j| {
-                let stroke = both(Quantity::Stroke, state.secondary_lateral_stroke[j]);
-                let torque = both(Quantity::Torque, state.secondary_yaw_torque[j]);
-                vec![
-                    format!("truck {}", j + 1),
-                    stroke[0].clone(),
-                    stroke[1].clone(),
-                    torque[0].clone(),
-                    torque[1].clone(),
-                    breakaway(state.breakaway[j]).into(),
-                ]
-            })
-            .collect();
-        sheet.table(
-            &[
-                "",
-                "secondary lateral stroke",
-                "",
-                "yaw torque on truck",
-                "",
-                "yaw element",
-            ],
-            &[5],
-            &rows,
-        );
-        sheet.line(&format!(
-            "largest L/V: wheel {}, truck side {}, net axle {}",
-            significant(state.wheel_lateral_to_vertical(), 3),
-            significant(state.truck_side_lateral_to_vertical(), 3),
-            significant(state.net_axle_lateral_to_vertical(), 3),
-        ));
+    /// The vehicle where the model covers it: what forces and strokes are read from.
+    fn covered(&self) -> Option<&CurvingState> {
+        let state = self.state.as_ref().ok();
+        state.filter(|state| state.status == CurveStatus::WithinModel)
     }
 
-    /// As JSON.
+    /// As JSON. Where the model does not cover the curve, forces and strokes are null, and `status` says
+    /// why; where a wheel is lifted, displacements too.
     pub fn json(&self, name: &str, case: &Case) -> Value {
-        let s = &self.state;
-        json!({
+        let status = self.status();
+        let mut object = json!({
             "name": name,
             "speed_m_per_s": case.service.speed,
-            "degree_curve_deg": s.degree,
-            "radius_m": 1.0 / curvature_of_degree(s.degree),
-            "cant_deficiency_rad": s.cant_deficiency,
-            "wheelset_lateral_m": s.wheelset_lateral,
-            "wheelset_yaw_rad": s.wheelset_yaw,
-            "truck_lateral_m": s.truck_lateral,
-            "truck_yaw_rad": s.truck_yaw,
-            "carbody_lateral_m": s.carbody[0],
-            "carbody_yaw_rad": s.carbody[1],
-            "carbody_roll_rad": s.carbody[2],
-            "primary_lateral_stroke_m": s.primary_lateral_stroke,
-            "primary_longitudinal_stroke_m": s.primary_longitudinal_stroke,
-            "secondary_lateral_stroke_m": s.secondary_lateral_stroke,
-            "secondary_yaw_torque_n_m": s.secondary_yaw_torque,
-            "secondary_yaw_state": s.breakaway.map(breakaway),
-            "wheels_outer_inner": s.wheels.map(|wheels| wheels.map(|w| wheel(&w))),
-            "largest_wheel_l_over_v": s.wheel_lateral_to_vertical(),
-            "largest_truck_side_l_over_v": s.truck_side_lateral_to_vertical(),
-            "largest_net_axle_l_over_v": s.net_axle_lateral_to_vertical(),
-            "limits": limits(&self.limits),
-            "performance_boundary": self.boundary.iter().map(limits).collect::<Vec<_>>(),
-        })
+            "curve_shown": self.shown.to_string(),
+            "degree_curve_deg": self.degree,
+            "radius_m": self.degree.map(|degree| 1.0 / curvature_of_degree(degree)),
+            "cant_deficiency_rad": self.cant_deficiency,
+            "status": status.code(),
+            "limits": limits(self.cant_deficiency, &self.limits),
+            "performance_boundary": self
+                .boundary
+                .iter()
+                .map(|(angle, found)| limits(*angle, found))
+                .collect::<Vec<_>>(),
+        });
+        if let Some((limit, ratio)) = status.exceeded() {
+            object["limit"] = json!(limit.to_string());
+            object["ratio"] = json!(ratio);
+        }
+        let motion = |of: fn(&CurvingState) -> Value| self.state.as_ref().map_or(Value::Null, of);
+        let force = |of: fn(&CurvingState) -> Value| self.covered().map_or(Value::Null, of);
+        for (key, value) in [
+            ("wheelset_lateral_m", motion(|s| json!(s.wheelset_lateral))),
+            ("wheelset_yaw_rad", motion(|s| json!(s.wheelset_yaw))),
+            ("truck_lateral_m", motion(|s| json!(s.truck_lateral))),
+            ("truck_yaw_rad", motion(|s| json!(s.truck_yaw))),
+            ("carbody_lateral_m", motion(|s| json!(s.carbody[0]))),
+            ("carbody_yaw_rad", motion(|s| json!(s.carbody[1]))),
+            ("carbody_roll_rad", motion(|s| json!(s.carbody[2]))),
+            (
+                "primary_lateral_stroke_m",
+                force(|s| json!(s.primary_lateral_stroke)),
+            ),
+            (
+                "primary_longitudinal_stroke_m",
+                force(|s| json!(s.primary_longitudinal_stroke)),
+            ),
+            (
+                "secondary_lateral_stroke_m",
+                force(|s| json!(s.secondary_lateral_stroke)),
+            ),
+            (
+                "secondary_yaw_torque_n_m",
+                force(|s| json!(s.secondary_yaw_torque)),
+            ),
+            (
+                "secondary_yaw_state",
+                force(|s| json!(s.breakaway.map(breakaway))),
+            ),
+            (
+                "wheels_outer_inner",
+                force(|s| json!(s.wheels.map(|wheels| wheels.map(|w| wheel(&w))))),
+            ),
+            (
+                "largest_wheel_l_over_v",
+                force(|s| json!(s.wheel_lateral_to_vertical())),
+            ),
+            (
+                "largest_truck_side_l_over_v",
+                force(|s| json!(s.truck_side_lateral_to_vertical())),
+            ),
+            (
+                "largest_net_axle_l_over_v",
+                force(|s| json!(s.net_axle_lateral_to_vertical())),
+            ),
+        ] {
+            object[key] = value;
+        }
+        object
     }
 }
 
@@ -233,7 +221,7 @@ fn wheel(w: &WheelForces) -> Value {
     })
 }
 
-fn limits(l: &CurvingLimits) -> Value {
+fn limits(cant_deficiency: f64, found: &Result<CurvingLimits, CurveStatus>) -> Value {
     let limited = |l: Option<LimitedCurve>| {
         l.map(|l| {
             json!({
@@ -244,37 +232,9 @@ fn limits(l: &CurvingLimits) -> Value {
         })
     };
     json!({
-        "cant_deficiency_rad": l.cant_deficiency,
-        "flange": limited(l.flange),
-        "slip": limited(l.slip),
+        "cant_deficiency_rad": cant_deficiency,
+        "status": found.as_ref().map_or_else(|status| status.code(), |_| "solved"),
+        "flange": found.as_ref().ok().map(|l| limited(l.flange)),
+        "slip": found.as_ref().ok().map(|l| limited(l.slip)),
     })
-}
-
-fn boundary_row(limits: &CurvingLimits) -> Vec<String> {
-    let angle = limits.cant_deficiency;
-    let mut row = vec![
-        significant(angle.to_degrees(), 3),
-        significant(angle * SUPERELEVATION_BASE / 0.0254, 3),
-    ];
-    let name = |l: &LimitedCurve| {
-        let text = l.limit.to_string();
-        text.rsplit("wheelset ")
-            .next()
-            .unwrap_or_default()
-            .trim_end_matches(" wheel")
-            .to_string()
-    };
-    match limits.flange {
-        Some(l) => row.extend([significant(l.degree, 4), name(&l)]),
-        None => row.extend(["> 25".into(), String::new()]),
-    }
-    match limits.slip {
-        Some(l) => row.extend([
-            significant(l.degree, 4),
-            name(&l),
-            significant(100.0 * l.other_wheel_reserve, 2),
-        ]),
-        None => row.extend(["> 25".into(), String::new(), String::new()]),
-    }
-    row
 }

@@ -7,9 +7,9 @@ use crate::{
     case::Case,
     evaluate::{
         Evaluation,
-        checks::{Check, checks},
+        checks::{Check, Verdict, checks},
         critical_speed::{Crossing, Stability},
-        curving::LimitedCurve,
+        curving::{CurveStatus, LimitedCurve},
         lateral_modes::{LateralMode, LateralModes},
         passenger_ride::PassengerRide,
         ride::NoRide,
@@ -54,6 +54,7 @@ pub(super) fn indices(case: &Case, evaluation: &Evaluation) -> Map<String, Value
     let curving = evaluation.curving.as_ref().ok();
     let degree = |limited: Option<LimitedCurve>| limited.map(|l| l.degree);
     let modes = &evaluation.modes;
+    let stroke_in_curve = evaluation.secondary_lateral_stroke_in_curve();
     let object = json!({
         "critical_speed_m_per_s": evaluation.stability.critical_speed(),
         "stability": stability(&evaluation.stability),
@@ -65,6 +66,12 @@ pub(super) fn indices(case: &Case, evaluation: &Evaluation) -> Map<String, Value
         },
         "flange_limit": curving.and_then(|c| c.flange).map(|l| limited(&l)),
         "slip_limit": curving.and_then(|c| c.slip).map(|l| limited(&l)),
+        "service_curve": service_curve(evaluation),
+        "secondary_lateral_stroke_in_curve_m": stroke_in_curve.ok(),
+        "secondary_lateral_stroke_in_curve_status": match stroke_in_curve {
+            Ok(_) => CurveStatus::WithinModel.code().to_string(),
+            Err(reason) => reason.to_string(),
+        },
         "modes_at_speed": modes.oscillatory.iter().map(mode).collect::<Vec<_>>(),
         "real_eigenvalues_per_s": modes.real,
         "stable_at_speed": modes.stable(),
@@ -245,12 +252,42 @@ fn vertical(evaluation: &Evaluation) -> Value {
 }
 
 pub(super) fn check(check: &Check) -> Value {
-    json!({
+    let verdict = check.verdict();
+    let mut object = json!({
         "name": check.name,
         "source": check.source,
-        "value_si": check.value,
+        "value_si": check.value.ok(),
         "limit_si": check.limit,
         "relation": if check.at_least { "at least" } else { "at most" },
-        "satisfied": check.passed(),
-    })
+        "satisfied": match verdict {
+            Verdict::Ok => Some(true),
+            Verdict::Exceeded => Some(false),
+            Verdict::NotAssessed => None,
+        },
+        "status": verdict.code(),
+    });
+    if let Err(status) = check.value {
+        object["value_status"] = json!(status.code());
+    }
+    object
+}
+
+/// Which curve the service has, and whether the model covers it.
+fn service_curve(evaluation: &Evaluation) -> Value {
+    match &evaluation.service_curve {
+        Ok(curve) => {
+            let mut object = json!({
+                "degree_curve_deg": curve.degree,
+                "cant_deficiency_rad": curve.cant_deficiency,
+                "given": curve.is_given,
+                "status": curve.status.code(),
+            });
+            if let Some((limit, ratio)) = curve.status.exceeded() {
+                object["limit"] = json!(limit.to_string());
+                object["ratio"] = json!(ratio);
+            }
+            object
+        }
+        Err(error) => json!({ "status": error.to_string() }),
+    }
 }

@@ -8,7 +8,7 @@ use crate::{
     case::Case,
     evaluate::{
         Evaluation,
-        checks::{Check, checks},
+        checks::{Check, Verdict, checks},
         critical_speed::Hunting,
         curving::LimitedCurve,
         passenger_ride::PassengerRide,
@@ -223,9 +223,12 @@ pub(crate) fn constraint_table(sheet: &mut Sheet, checks: &[Check]) {
     sheet.table(&[], &[1, 6], &rows);
 }
 
-/// Verdict, name, value and limit in SI, value and limit in US units, section of the report.
+/// Verdict, name, value (or why there is none) and limit in SI, value and limit in US units, section of the report.
 pub(crate) fn check_row(check: &Check) -> Vec<String> {
-    let [si, us] = both(check.quantity, check.value);
+    let [si, us] = match check.value {
+        Ok(value) => both(check.quantity, value),
+        Err(status) => [status.code().into(), String::new()],
+    };
     let [si_limit, us_limit] = both(check.quantity, check.limit);
     let sign = if check.at_least { "≥" } else { "≤" };
     let limit_us = if us_limit.is_empty() {
@@ -234,7 +237,10 @@ pub(crate) fn check_row(check: &Check) -> Vec<String> {
         format!("{sign} {us_limit}")
     };
     vec![
-        if check.passed() { "ok" } else { "EXCEEDED" }.to_string(),
+        match check.verdict() {
+            Verdict::Exceeded => "EXCEEDED".into(),
+            verdict => verdict.code().into(),
+        },
         check.name.clone(),
         si,
         format!("{sign} {si_limit}"),

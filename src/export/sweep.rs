@@ -1,7 +1,7 @@
 //! Designs of a sweep as a table.
 
 use super::table::Table;
-use crate::design::sweep::{Design, Sweep};
+use crate::design::sweep::{Design, Meets, Sweep};
 
 /// Design, parameters, indices, whether all is met, and a status: `ok`, or which index has no value
 /// and why.
@@ -17,10 +17,7 @@ pub fn table(sweep: &Sweep, designs: &[Design]) -> Table {
         table.number(index.column(), designs.iter().map(value));
     }
     if sweep.asks() {
-        let meets = |design: &Design| match design.meets_all {
-            Some(true) => "yes",
-            _ => "no",
-        };
+        let meets = |design: &Design| design.meets_all.map_or("", Meets::code);
         table.text("meets_all", designs.iter().map(meets));
     }
     table.text("status", designs.iter().map(|design| status(sweep, design)));

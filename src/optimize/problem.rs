@@ -157,6 +157,15 @@ pub enum Failure {
     /// The curving equations are singular.
     #[error("no steady-state solution in a curve")]
     NoCurve,
+    /// The load transfer in a curve takes all of the load of the wheels on one side.
+    #[error("wheel-lifted: no load on the wheels of one side")]
+    WheelLifted,
+    /// Beyond flange contact or slip, where the linear model has no verdict.
+    #[error("outside-model: beyond flange contact or slip")]
+    OutsideModel,
+    /// The index belongs to a curve that the service does not give.
+    #[error("no curve in [service]")]
+    NoServiceCurve,
     /// No mode of the kind asked for exists.
     #[error("no mode of that kind")]
     NoMode,
@@ -169,6 +178,13 @@ pub enum Failure {
     /// An index came out infinite or undefined.
     #[error("an index that is not a number")]
     NotFinite,
+}
+
+impl Failure {
+    /// Whether the model does not cover what was asked, so that a demand on it is not assessed.
+    pub fn is_not_covered(self) -> bool {
+        matches!(self, Self::WheelLifted | Self::OutsideModel)
+    }
 }
 
 /// What identifies a measurement: equal keys, equal measurements.

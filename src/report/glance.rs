@@ -8,7 +8,7 @@ use super::{
     table::{Column, blocks, table},
 };
 use crate::{
-    evaluate::checks::checks,
+    evaluate::checks::{Verdict, checks},
     export::{
         certificate::{conflict, margin_row},
         design_text::{performance_rows, stage_name, verdict},
@@ -153,16 +153,19 @@ fn ended(report: &Report) -> Markup {
 /// Nominal constraints of the report that the design exceeds, whether or not the spec limits them.
 fn exceeded(report: &Report) -> Markup {
     let checks = checks(&report.result.case, &report.result.evaluation);
-    let exceeded: Vec<&str> = checks
-        .iter()
-        .filter(|check| !check.passed())
-        .map(|check| check.name.as_str())
-        .collect();
+    let named = |verdict: Verdict| -> Vec<&str> {
+        let these = checks.iter().filter(|check| check.verdict() == verdict);
+        these.map(|check| check.name.as_str()).collect()
+    };
+    let [exceeded, open] = [Verdict::Exceeded, Verdict::NotAssessed].map(named);
     html! {
         p {
-            (checks.len() - exceeded.len()) " of the " (checks.len())
+            (checks.len() - exceeded.len() - open.len()) " of the " (checks.len())
             " nominal " a href="#checks" { "checks" } " of the methodology are passed."
             @if !exceeded.is_empty() { " Not passed: " (exceeded.join("; ")) "." }
+            @if !open.is_empty() {
+                " Not assessed, as the linear model does not cover the curve: " (open.join("; ")) "."
+            }
         }
     }
 }

@@ -77,6 +77,7 @@ fn verdict(cell: &str) -> &'static str {
     match cell {
         "met" | "ok" => "met-cell",
         "" => "",
+        "not-assessed" => "open-cell",
         _ => "unmet-cell",
     }
 }

@@ -9,9 +9,10 @@ use super::{
 };
 use crate::{
     chart::{
-        Curve, Dash, Direction, Family, Figure, Ink, Limit, Mark, Panel, Scale, Stroke, Symbol,
-        System, Unit, Weight,
+        Curve, Dash, Direction, Family, Figure, Ink, Limit, Mark, Panel, Scale, Shade, Stroke,
+        Symbol, System, Unit, Weight,
     },
+    dynamics::curving::lifting_cant_deficiency,
     evaluate::{
         curving::{CurvingLimits, Limit as CurveLimit, LimitedCurve},
         limits::CANT_DEFICIENCY,
@@ -57,10 +58,20 @@ const CANT: [f64; 2] = [-6.0, 6.0];
 /// Their number: every tenth of a degree.
 const STEPS: usize = 121;
 
-/// Boundary of flange contact and slip in cant deficiency against degree curve.
+/// Where the boundary ends short of the cant deficiency at which wheels lift.
+const SHORT_OF_LIFT: f64 = 1.0 - 1e-9;
+
+/// Boundary of flange contact and slip in cant deficiency against degree curve. It ends where the
+/// wheels on one side lift.
 pub(super) fn boundary(book: &Workbook, entry: &Entry) -> Figure {
     let case = book.case();
-    let cant = Scale::Linear.spread(CANT.map(f64::to_radians), STEPS);
+    let lift = lifting_cant_deficiency(&case.vehicle);
+    let end = SHORT_OF_LIFT * lift;
+    let mut cant = Scale::Linear.spread(CANT.map(f64::to_radians), STEPS);
+    for angle in &mut cant {
+        *angle = angle.clamp(-end, end);
+    }
+    cant.dedup();
     let limits: Vec<Option<CurvingLimits>> =
         book.each(&cant, |angle| CurvingLimits::new(case, *angle).ok());
     let flange = pieces(&limits, |l| l.flange);
@@ -99,10 +110,10 @@ pub(super) fn boundary(book: &Workbook, entry: &Entry) -> Figure {
             Stroke::new(Ink::Black, Dash::Solid).weight(Weight::Bold),
             &slip,
         ));
-    // The share of μN left at the other wheel, every half degree where there is room.
+    // The share of μN left at the other wheel, every degree.
     for (i, limits) in limits.iter().enumerate() {
         let angle = cant[i].to_degrees();
-        let shown = i % 10 == 0 && angle > -5.9 && angle < 5.9;
+        let shown = (angle - angle.round()).abs() < 1e-9 && angle > -5.9 && angle < 5.9;
         if let (true, Some(slip)) = (shown, limits.as_ref().and_then(|l| l.slip)) {
             let left = format!("{:.0} %", 100.0 * slip.other_wheel_reserve.max(0.0));
             panel = panel.mark(Mark::new(
@@ -119,6 +130,19 @@ pub(super) fn boundary(book: &Workbook, entry: &Entry) -> Figure {
         Ink::Black,
         "share of μN left at the other wheel of the slipping wheelset",
     ));
+    let [low, high] = CANT.map(f64::to_radians);
+    for (range, label) in [
+        ([lift, high], "inner wheels lifted"),
+        ([low, -lift], "outer wheels lifted"),
+    ] {
+        if range[0] < range[1] {
+            panel = panel.shade(Shade {
+                axis: Direction::Y,
+                range,
+                label: label.into(),
+            });
+        }
+    }
     let fra = CANT_DEFICIENCY / SUPERELEVATION_BASE;
     panel = panel.limit(Limit {
         axis: Direction::Y,
@@ -141,6 +165,13 @@ pub(super) fn boundary(book: &Workbook, entry: &Entry) -> Figure {
             "Cant deficiency over degree curve: boundaries beyond which a wheelset touches a \
              flange or a wheel slips, with the wheel named along the boundary.",
         );
+    if lift < high {
+        figure = figure.note(format!(
+            "The boundary ends at {}° of cant deficiency: there the load transfer exceeds the static \
+             load of the wheels on one side, and they lift.",
+            number(lift.to_degrees(), 3)
+        ));
+    }
     figure.subtitle = book.subtitle(
         None,
         &[

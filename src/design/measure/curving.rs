@@ -3,12 +3,12 @@
 use super::{Measured, pieces};
 use crate::{
     case::Case,
-    dynamics::curving::CurvingModel,
+    dynamics::curving::{CurvingError, CurvingModel},
     evaluate::{
-        curving::{CurvingLimits, CurvingState, Limit},
+        curving::{CurveStatus, CurvingLimits, CurvingState, Limit, ServiceCurve, level_curves},
         gradients::{
             Constants,
-            curving::{CurvingTangents, WheelChange},
+            curving::{CurveChange, CurvingTangents},
         },
     },
     index::Index,
@@ -17,11 +17,13 @@ use crate::{
 };
 
 /// The vehicle in the curve of the service, or the tightest that it runs without flange contact or
-/// slip.
+/// slip. Where the model does not cover it, its extrapolation: smooth, as a search needs it.
 pub(super) struct Curve {
     state: CurvingState,
-    /// Change of the forces on its wheels by each constant.
-    wheels: Option<Vec<[[WheelChange; 2]; 4]>>,
+    /// Its change by each constant.
+    changes: Option<Vec<CurveChange>>,
+    /// Flange clearance, m.
+    clearance: f64,
 }
 
 /// The curving models of a case, built when first asked for.
@@ -30,6 +32,42 @@ pub(super) struct Curves<'a> {
     constants: Option<&'a Constants>,
     limits: Option<(CurvingModel, CurvingLimits)>,
     curve: Option<Curve>,
+}
+
+fn no_curve(error: CurvingError) -> Failure {
+    match error {
+        CurvingError::WheelLifted(_) => Failure::WheelLifted,
+        CurvingError::Singular | CurvingError::NoConsistentState => Failure::NoCurve,
+    }
+}
+
+/// Why a verdict on forces and strokes in the service curve of a case cannot be had; `None` if it can.
+pub(super) fn not_covered(case: &Case) -> Option<Failure> {
+    match ServiceCurve::of(case).map(|curve| curve.status) {
+        Ok(CurveStatus::WithinModel) => None,
+        Ok(CurveStatus::OutsideModel { .. }) => Some(Failure::OutsideModel),
+        Ok(CurveStatus::WheelLifted(_)) => Some(Failure::WheelLifted),
+        Err(error) => Some(no_curve(error)),
+    }
+}
+
+/// Quasi-static secondary lateral strokes of trucks 1 and 2 in a curve of `degree` degrees, m, and
+/// their derivatives by some constants, where these can be had.
+///
+/// # Errors
+///
+/// [`Failure`] if there is no steady-state solution.
+pub(super) fn secondary_strokes(
+    case: &Case,
+    degree: f64,
+    constants: Option<&Constants>,
+) -> Result<([f64; 2], Option<Vec<[f64; 2]>>), Failure> {
+    let by = constants.map(|constants| (constants, vec![0.0; constants.len()]));
+    let curve = Curve::new(case, degree, by)?;
+    let strokes = |change: &CurveChange| change.secondary_lateral_stroke;
+    let by = curve.changes.as_ref();
+    let by = by.map(|all| all.iter().map(strokes).collect());
+    Ok((curve.state.secondary_lateral_stroke, by))
 }
 
 impl<'a> Curves<'a> {
@@ -44,9 +82,7 @@ impl<'a> Curves<'a> {
 
     fn limits(&mut self) -> Result<&(CurvingModel, CurvingLimits), Failure> {
         if self.limits.is_none() {
-            let model = CurvingModel::new(self.case, 0.0).map_err(|_| Failure::NoCurve)?;
-            let limits = CurvingLimits::of(&model, self.case.wheel_rail.flange_clearance, 0.0);
-            self.limits = Some((model, limits));
+            self.limits = Some(level_curves(self.case).map_err(no_curve)?);
         }
         self.limits.as_ref().ok_or(Failure::NoCurve)
     }
@@ -65,9 +101,7 @@ impl<'a> Curves<'a> {
 
     fn curve(&mut self) -> Result<&Curve, Failure> {
         if self.curve.is_none() {
-            let service = &self.case.service;
-            let (given, cant_deficiency) = (service.curve, service.cant_deficiency);
-            let (degree, degrees) = if let Some(angle) = given {
+            let (degree, degrees) = if let Some(angle) = self.case.service.curve {
                 let zero = self.constants.map(|constants| vec![0.0; constants.len()]);
                 (angle.to_degrees(), zero)
             } else {
@@ -78,17 +112,8 @@ impl<'a> Curves<'a> {
                 let degree = met.1.unwrap_or(MAX_DEGREE);
                 (degree, gradients.and_then(|mut list| list.pop()))
             };
-            let state = CurvingState::new(self.case, degree, cant_deficiency)
-                .map_err(|_| Failure::NoCurve)?;
-            let wheels = self
-                .constants
-                .zip(degrees)
-                .and_then(|(constants, degrees)| {
-                    let model = CurvingModel::new(self.case, cant_deficiency).ok()?;
-                    let tangents = CurvingTangents::new(&model, constants, cant_deficiency);
-                    tangents.wheels(degree, &degrees)
-                });
-            self.curve = Some(Curve { state, wheels });
+            let curve = Curve::new(self.case, degree, self.constants.zip(degrees))?;
+            self.curve = Some(curve);
         }
         self.curve.as_ref().ok_or(Failure::NoCurve)
     }
@@ -129,19 +154,49 @@ impl<'a> Curves<'a> {
 }
 
 impl Curve {
+    /// A case in a curve of `degree` degrees; with the constants by which it is differentiated, and
+    /// the derivatives of the curve itself by these.
+    fn new(case: &Case, degree: f64, by: Option<(&Constants, Vec<f64>)>) -> Result<Self, Failure> {
+        let cant_deficiency = case.service.cant_deficiency();
+        let model = CurvingModel::new(case, cant_deficiency).map_err(no_curve)?;
+        let clearance = case.wheel_rail.flange_clearance;
+        let changes = by.and_then(|(constants, degrees)| {
+            CurvingTangents::new(&model, constants, cant_deficiency).state(degree, &degrees)
+        });
+        Ok(Self {
+            state: CurvingState::of(&model, clearance, degree, cant_deficiency),
+            changes,
+            clearance,
+        })
+    }
+
     fn pieces(&self, index: Index) -> Vec<Piece> {
-        if index == Index::AdhesionUsed {
-            let wheels = self.state.wheels.iter().flatten();
-            let values: Vec<f64> = wheels.map(|wheel| wheel.adhesion_used).collect();
-            return self.graded(&values, |by| {
-                by.iter()
-                    .flatten()
-                    .map(|wheel| wheel.adhesion_used)
-                    .collect()
-            });
+        let state = &self.state;
+        match index {
+            Index::CurveLimitRatio => {
+                return self.graded(&state.limit_ratios, |by| {
+                    let change = |limit| match limit {
+                        Limit::Flange(i) => {
+                            let outward = state.wheelset_lateral[i].signum();
+                            outward * by.wheelset_lateral[i] / self.clearance
+                        }
+                        Limit::Slip(i, side) => by.wheels[i][side as usize].adhesion_used,
+                    };
+                    Limit::ALL.map(change).to_vec()
+                });
+            }
+            Index::AdhesionUsed => {
+                let wheels = state.wheels.iter().flatten();
+                let values: Vec<f64> = wheels.map(|wheel| wheel.adhesion_used).collect();
+                return self.graded(&values, |by| {
+                    let wheels = by.wheels.iter().flatten();
+                    wheels.map(|wheel| wheel.adhesion_used).collect()
+                });
+            }
+            _ => {}
         }
         let wheels = wheels_of(index);
-        let sums: Vec<[f64; 2]> = wheels.iter().map(|w| self.state.sums(w)).collect();
+        let sums: Vec<[f64; 2]> = wheels.iter().map(|w| state.sums(w)).collect();
         let ratios = sums
             .iter()
             .map(|[lateral, vertical]| lateral.abs() / vertical);
@@ -149,21 +204,21 @@ impl Curve {
             let pairs = wheels.iter().zip(&sums);
             // The loads do not depend on the suspension.
             let change = |(wheels, [lateral, vertical]): (&Vec<(usize, usize)>, &[f64; 2])| {
-                let sum: f64 = wheels.iter().map(|&(i, side)| by[i][side].lateral).sum();
+                let sum: f64 = wheels
+                    .iter()
+                    .map(|&(i, side)| by.wheels[i][side].lateral)
+                    .sum();
                 sum / vertical * lateral.signum()
             };
             pairs.map(change).collect()
         })
     }
 
-    /// Pieces of values, and of what the change of the wheels' forces by each constant makes of them.
-    fn graded(
-        &self,
-        values: &[f64],
-        change: impl Fn(&[[WheelChange; 2]; 4]) -> Vec<f64>,
-    ) -> Vec<Piece> {
-        let wheels = self.wheels.as_ref();
-        let by: Option<Vec<Vec<f64>>> = wheels.map(|all| all.iter().map(change).collect());
+    /// Pieces of values, and of what the change of the vehicle in the curve by each constant makes of
+    /// them.
+    fn graded(&self, values: &[f64], change: impl Fn(&CurveChange) -> Vec<f64>) -> Vec<Piece> {
+        let changes = self.changes.as_ref();
+        let by: Option<Vec<Vec<f64>>> = changes.map(|all| all.iter().map(change).collect());
         pieces(values, by.as_deref())
     }
 }

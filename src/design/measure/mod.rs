@@ -17,7 +17,7 @@ use crate::{
     optimize::problem::{Failure, Piece},
     parameter::Parameter,
 };
-use curving::Curves;
+use curving::{Curves, not_covered};
 
 /// Something to measure.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,7 +51,7 @@ impl std::fmt::Display for Wanted {
 ///
 /// [`Failure`] where the case has no such performance.
 pub fn measure(case: &Case, wanted: &[Wanted]) -> Result<Vec<Vec<Piece>>, Failure> {
-    Job::new(case, wanted, None, true)
+    Job::new(case, wanted, None, Purpose::Search)
         .run()
         .into_iter()
         .collect()
@@ -69,14 +69,33 @@ pub fn measure_graded(
     constants: &[Parameter],
 ) -> Result<Vec<Vec<Piece>>, Failure> {
     let constants = Constants::new(case, constants);
-    let job = Job::new(case, wanted, Some(&constants), true);
+    let job = Job::new(case, wanted, Some(&constants), Purpose::Search);
     job.run().into_iter().collect()
 }
 
-/// As [`measure`], with a result for each of what is wanted: a case that is unstable at its speed
-/// has no lateral ride, but it has a critical speed.
+/// As [`measure`], for a verdict: with a result for each of what is wanted, as a case that is unstable
+/// at its speed has no lateral ride, but it has a critical speed; and without results where the model
+/// does not cover the service curve.
 pub fn measure_each(case: &Case, wanted: &[Wanted]) -> Vec<Result<Vec<Piece>, Failure>> {
-    Job::new(case, wanted, None, false).run()
+    Job::new(case, wanted, None, Purpose::Verdict).run()
+}
+
+/// Why an index has no pieces where its measurement did not fail.
+pub fn absence(index: Index) -> Failure {
+    if index.needs_service_curve() {
+        Failure::NoServiceCurve
+    } else {
+        Failure::NoMode
+    }
+}
+
+/// What a measurement is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Purpose {
+    /// Nothing is of use unless all is there; beyond the models' limits their smooth extrapolation is.
+    Search,
+    /// Each result is of use, and only what the models cover.
+    Verdict,
 }
 
 type Measured = Result<Vec<Piece>, Failure>;
@@ -87,8 +106,7 @@ struct Job<'a> {
     wanted: &'a [Wanted],
     /// By which gradients are taken, if they are.
     constants: Option<&'a Constants>,
-    /// Nothing is of use unless all is there.
-    all_or_nothing: bool,
+    purpose: Purpose,
 }
 
 impl<'a> Job<'a> {
@@ -96,25 +114,52 @@ impl<'a> Job<'a> {
         case: &'a Case,
         wanted: &'a [Wanted],
         constants: Option<&'a Constants>,
-        all_or_nothing: bool,
+        purpose: Purpose,
     ) -> Self {
         Self {
             case,
             wanted,
             constants,
-            all_or_nothing,
+            purpose,
         }
     }
 
     /// The lateral model's indices beside those of the other models.
     fn run(&self) -> Vec<Measured> {
         let numbered = self.wanted.iter().copied().enumerate();
-        let (lateral, others): (Vec<_>, Vec<_>) =
-            numbered.partition(|(_, wanted)| wanted.is_of_lateral_model());
+        let mut status = None;
+        let (mut known, mut open) = (Vec::new(), Vec::new());
+        for (i, wanted) in numbered {
+            match self.known(wanted, &mut status) {
+                Some(measured) => known.push((i, measured)),
+                None => open.push((i, wanted)),
+            }
+        }
+        let (lateral, others): (Vec<_>, Vec<_>) = open
+            .into_iter()
+            .partition(|(_, wanted)| wanted.is_of_lateral_model());
         let (lateral, others) = rayon::join(|| self.lateral(&lateral), || self.others(&others));
-        let mut all: Vec<(usize, Measured)> = lateral.into_iter().chain(others).collect();
+        let mut all: Vec<(usize, Measured)> =
+            known.into_iter().chain(lateral).chain(others).collect();
         all.sort_by_key(|(i, _)| *i);
         all.into_iter().map(|(_, measured)| measured).collect()
+    }
+
+    /// A result that is known without the models: no pieces where the service gives no curve, and in a
+    /// verdict none where the model does not cover it. `status` keeps why, once it is known.
+    fn known(&self, wanted: Wanted, status: &mut Option<Option<Failure>>) -> Option<Measured> {
+        let Wanted::Index(index) = wanted else {
+            return None;
+        };
+        if index.needs_service_curve() && self.case.service.curve.is_none() {
+            return Some(Ok(Vec::new()));
+        }
+        if index.is_in_service_curve() && self.purpose == Purpose::Verdict {
+            return status
+                .get_or_insert_with(|| not_covered(self.case))
+                .map(Err);
+        }
+        None
     }
 
     fn lateral(&self, wanted: &[(usize, Wanted)]) -> Vec<(usize, Measured)> {
@@ -127,10 +172,11 @@ impl<'a> Job<'a> {
         };
         let (rides, stability): (Vec<_>, Vec<_>) =
             wanted.iter().partition(|(_, wanted)| wanted.is_ride());
-        if self.all_or_nothing && !rides.is_empty() && !lateral.poles.stable() {
+        if self.purpose == Purpose::Search && !rides.is_empty() && !lateral.poles.stable() {
             return failed(Failure::Unstable);
         }
         if let Some(constants) = self.constants {
+            lateral.constants = Some(constants);
             lateral.tangents = constants.lateral(&lateral.model);
             lateral.graded = true;
         }
@@ -193,6 +239,7 @@ struct Lateral<'a> {
     case: &'a Case,
     model: LateralModel,
     poles: Poles,
+    constants: Option<&'a Constants>,
     tangents: Vec<ForcedTangent>,
     graded: bool,
 }
@@ -204,6 +251,7 @@ impl<'a> Lateral<'a> {
             case,
             poles: Poles::at(&model.forced, case.service.speed)?,
             model,
+            constants: None,
             tangents: Vec::new(),
             graded: false,
         })
@@ -285,14 +333,19 @@ pub fn piece_name(wanted: Wanted, piece: usize) -> String {
         format!("wheelset {} {side} wheel", piece / 2 + 1)
     };
     match index {
-        Index::DegreeCurve | Index::FlangeLimitedCurve | Index::SlipLimitedCurve => Limit::ALL
+        Index::DegreeCurve
+        | Index::FlangeLimitedCurve
+        | Index::SlipLimitedCurve
+        | Index::CurveLimitRatio => Limit::ALL
             .get(piece)
             .map(ToString::to_string)
             .unwrap_or_default(),
         Index::LeastDampingRatioToSpeed => {
             ["", "at a lower speed", "at the lowest speed"][piece.min(2)].into()
         }
-        Index::SecondaryLateralStroke | Index::SecondaryVerticalStroke => {
+        Index::SecondaryLateralStroke
+        | Index::SecondaryLateralStrokeInCurve
+        | Index::SecondaryVerticalStroke => {
             ["leading truck", "trailing truck"][piece.min(1)].into()
         }
         Index::PrimaryLateralStroke

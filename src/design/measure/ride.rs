@@ -1,11 +1,12 @@
 //! Ride and strokes.
 
-use super::{BANDS, Lateral, Measured, Vertical, no_ride, pieces};
+use super::{BANDS, Lateral, Measured, Vertical, curving::secondary_strokes, no_ride, pieces};
 use crate::{
     evaluate::{
         limits::PEAK,
         passenger_ride::PassengerRide,
         ride::{LateralRide, VerticalRide, average},
+        stroke_in_curve::taken,
     },
     index::Index,
     optimize::problem::{Failure, Piece},
@@ -37,6 +38,7 @@ impl Lateral<'_> {
             poles,
             tangents,
             graded,
+            ..
         } = self;
         if index == Index::LateralIsoRatio {
             let passengers = PassengerRide::lateral_with_derivatives(model, case, poles, tangents);
@@ -49,6 +51,9 @@ impl Lateral<'_> {
             *ride = Some(found.map_err(no_ride)?);
         }
         let ride = ride.as_ref().ok_or(Failure::Integration)?;
+        if index == Index::SecondaryLateralStrokeInCurve {
+            return self.strokes_in_curve(ride);
+        }
         Ok(made_of(ride, *graded, |ride| match index {
             Index::LateralAcceleration => vec![average(&ride.acceleration)],
             Index::SecondaryLateralStroke => peaks(&ride.secondary_stroke),
@@ -56,6 +61,27 @@ impl Lateral<'_> {
             Index::PrimaryLongitudinalStroke => peaks(&ride.longitudinal_stroke),
             _ => peaks(&ride.excursion),
         }))
+    }
+}
+
+impl Lateral<'_> {
+    /// Secondary lateral strokes in the curve that the service gives; none without one.
+    fn strokes_in_curve(&self, (ride, by): &Graded<LateralRide>) -> Measured {
+        let Some(angle) = self.case.service.curve else {
+            return Ok(Vec::new());
+        };
+        let (state, changes) = secondary_strokes(self.case, angle.to_degrees(), self.constants)?;
+        let piece = |j: usize| {
+            let change = |(ride, strokes): (&LateralRide, &[f64; 2])| {
+                state[j].signum() * strokes[j] + PEAK * ride.secondary_stroke[j]
+            };
+            let changes = changes.as_ref();
+            Piece {
+                gradient: changes.map(|changes| by.iter().zip(changes).map(change).collect()),
+                ..Piece::single(j, taken(state[j], ride.secondary_stroke[j]))
+            }
+        };
+        Ok((0..2).map(piece).collect())
     }
 }
 

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     case::Case,
-    design::measure::{Wanted, measure_each},
+    design::measure::{Wanted, absence, measure_each},
     index::{Index, Scale, Sense},
     optimize::problem::{Failure, Piece},
     spec::{DesignSpace, Spec},
@@ -218,7 +218,7 @@ fn compared(index: Index, pieces: &[Piece]) -> Outcome {
         Sense::AtLeast => values.reduce(f64::min),
         Sense::AtMost => values.reduce(f64::max),
     };
-    let value = worst.ok_or(Failure::NoMode)?;
+    let value = worst.ok_or_else(|| absence(index))?;
     match index.scale() {
         Scale::Linear => Ok(value),
         Scale::Logarithmic if value > 0.0 => Ok(value.ln()),

@@ -5,7 +5,7 @@
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
-use super::CurvingModel;
+use super::{CurvingModel, Side};
 use crate::dynamics::{Row, lateral};
 
 /// State of the secondary yaw element of a truck.
@@ -28,6 +28,9 @@ pub enum CurvingError {
     /// No state of the yaw elements is consistent on part of the curvature range.
     #[error("no consistent breakaway state of the secondary yaw elements was found")]
     NoConsistentState,
+    /// The load transfer takes all of the static load of the wheels on one side: ΔN ≥ N.
+    #[error("the {0} wheels lift: the load transfer exceeds their static load")]
+    WheelLifted(Side),
 }
 
 /// The equilibrium x = at_zero + (1/R) per_curvature between two curvatures.
@@ -216,9 +219,23 @@ impl CurvingModel {
 
     /// Secondary lateral stroke of truck `j` at a curvature, m.
     pub fn secondary_lateral_stroke(&self, curvature: f64, j: usize) -> f64 {
+        let x = self.segment_at(curvature).displacements(curvature);
+        self.secondary_lateral_stretch(&x, curvature, j)
+    }
+
+    /// Secondary lateral stretch of truck `j`, m: linear in the coordinates, m and rad, and the
+    /// curvature, 1/m.
+    pub(crate) fn secondary_lateral_stretch(
+        &self,
+        x: &DVector<f64>,
+        curvature: f64,
+        j: usize,
+    ) -> f64 {
         let l_s = self.vehicle.carbody.half_truck_spacing;
-        let stretch = self.rows().secondary_lateral_stretch(j);
-        self.at(&stretch, curvature) + curvature * l_s * l_s / 2.0
+        let row = self.rows().secondary_lateral_stretch(j);
+        let terms = row.terms().iter().filter(|(i, _)| *i < self.q.len());
+        let stretch: f64 = terms.map(|&(i, c)| c * x[i]).sum();
+        stretch + curvature * l_s * l_s / 2.0
     }
 
     fn rows(&self) -> lateral::Builder<'_> {

@@ -53,10 +53,14 @@ impl CurvingModel {
     ///
     /// # Errors
     ///
-    /// [`CurvingError`] if the equations are singular or no state of the yaw elements is
-    /// consistent.
+    /// [`CurvingError`] if the wheels on one side carry no load, the equations are singular or no
+    /// state of the yaw elements is consistent.
     pub fn new(case: &Case, cant_deficiency: f64) -> Result<Self, CurvingError> {
         let mut model = Self::unsolved(case, cant_deficiency);
+        let unloaded = |side: &Side| model.wheel_load[*side as usize] <= 0.0;
+        if let Some(side) = Side::BOTH.into_iter().find(unloaded) {
+            return Err(CurvingError::WheelLifted(side));
+        }
         model.segments = model.solve(curvature_of_degree(MAX_DEGREE))?;
         Ok(model)
     }
@@ -173,9 +177,16 @@ fn load_transfer(vehicle: &Vehicle, cant_deficiency: f64) -> f64 {
     cant_deficiency * GRAVITY * moment / (2.0 * w.half_contact_distance)
 }
 
+/// Cant deficiency of either sign at which the load transfer takes a wheel's static load away,
+/// ΔN = N, rad; infinite where no load is transferred.
+pub fn lifting_cant_deficiency(vehicle: &Vehicle) -> f64 {
+    vehicle.wheel_load() / load_transfer(vehicle, 1.0).abs()
+}
+
 /// Creep coefficients of a wheel whose load is `ratio` times its static one (3.4.5):
 /// f11, f33 ∝ N^⅔, f12 ∝ N, f22 ∝ N^(4/3).
 fn at_load(contact: Contact, ratio: f64) -> Contact {
+    // A wheel without load has no creep forces; the model of such a vehicle is not solved.
     let ratio = ratio.max(0.0);
     Contact {
         f11: contact.f11 * ratio.powf(2.0 / 3.0),

@@ -25,6 +25,17 @@ pub struct WheelChange {
     pub adhesion_used: f64,
 }
 
+/// Change of the vehicle in a curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveChange {
+    /// Of y_w, wheelsets 1–4, m.
+    pub wheelset_lateral: [f64; 4],
+    /// Of the secondary lateral strokes, trucks 1, 2, m.
+    pub secondary_lateral_stroke: [f64; 2],
+    /// Of the forces on the wheels, [outer, inner] of wheelsets 1–4.
+    pub wheels: [[WheelChange; 2]; 4],
+}
+
 impl<'a> CurvingTangents<'a> {
     /// Of a model of the constants' case at a cant deficiency, rad.
     pub fn new(model: &'a CurvingModel, constants: &Constants, cant_deficiency: f64) -> Self {
@@ -111,9 +122,9 @@ impl<'a> CurvingTangents<'a> {
         Some(changes.collect())
     }
 
-    /// Derivatives by each constant of the forces on the wheels, [outer, inner] of wheelsets 1–4, in a
-    /// curve that itself changes by `degrees`. `None` if the equations are singular.
-    pub fn wheels(&self, degree: f64, degrees: &[f64]) -> Option<Vec<[[WheelChange; 2]; 4]>> {
+    /// Derivatives by each constant of the vehicle in a curve that itself changes by `degrees`. `None`
+    /// if the equations are singular.
+    pub fn state(&self, degree: f64, degrees: &[f64]) -> Option<Vec<CurveChange>> {
         let curvature = curvature_of_degree(degree);
         let segment = self.model.segment_at(curvature);
         let x = segment.displacements(curvature);
@@ -122,26 +133,48 @@ impl<'a> CurvingTangents<'a> {
         let changes = all.map(|(p, (dx, degrees))| {
             let further = curvature_per_degree(degree) * degrees;
             let dx = dx + &segment.per_curvature * further;
-            std::array::from_fn(|i| {
-                Side::BOTH.map(|side| {
-                    let (place, moved) = (Place::of(&x, i), Place::of(&dx, i));
-                    let forces = |model: &CurvingModel| {
-                        let [f_x, f_y] = model.creep(place, curvature, 1.0, side);
-                        [f_x, f_y, model.normal(place, 1.0, side)]
-                    };
-                    let [f_x, f_y, _] = forces(self.model);
-                    let [own_x, own_y, own_normal] = self.explicit(p, forces);
-                    let [d_x, d_y] = self.model.creep(moved, further, 0.0, side);
-                    let (d_x, d_y) = (d_x + own_x, d_y + own_y);
-                    let normal = self.model.normal(moved, 0.0, side) + own_normal;
-                    let along = (f_x * d_x + f_y * d_y) / f_x.hypot(f_y).max(f64::MIN_POSITIVE);
-                    WheelChange {
-                        lateral: d_y + normal,
-                        adhesion_used: along / self.model.adhesion_limit(side),
-                    }
-                })
-            })
+            CurveChange {
+                wheelset_lateral: std::array::from_fn(|i| dx[i]),
+                secondary_lateral_stroke: std::array::from_fn(|j| {
+                    let stretch =
+                        |model: &CurvingModel| [model.secondary_lateral_stretch(&x, curvature, j)];
+                    let [own] = self.explicit(p, stretch);
+                    self.model.secondary_lateral_stretch(&dx, further, j) + own
+                }),
+                wheels: std::array::from_fn(|i| {
+                    Side::BOTH.map(|side| {
+                        let [place, moved] = [&x, &dx].map(|x| Place::of(x, i));
+                        self.wheel(p, side, curvature, place, (moved, further))
+                    })
+                }),
+            }
         });
         Some(changes.collect())
+    }
+
+    /// Change of the forces on a wheel by constant `p`, its wheelset at a place in a curvature, 1/m,
+    /// both of which change.
+    fn wheel(
+        &self,
+        p: usize,
+        side: Side,
+        curvature: f64,
+        place: Place,
+        (moved, further): (Place, f64),
+    ) -> WheelChange {
+        let forces = |model: &CurvingModel| {
+            let [f_x, f_y] = model.creep(place, curvature, 1.0, side);
+            [f_x, f_y, model.normal(place, 1.0, side)]
+        };
+        let [f_x, f_y, _] = forces(self.model);
+        let [own_x, own_y, own_normal] = self.explicit(p, forces);
+        let [d_x, d_y] = self.model.creep(moved, further, 0.0, side);
+        let (d_x, d_y) = (d_x + own_x, d_y + own_y);
+        let normal = self.model.normal(moved, 0.0, side) + own_normal;
+        let along = (f_x * d_x + f_y * d_y) / f_x.hypot(f_y).max(f64::MIN_POSITIVE);
+        WheelChange {
+            lateral: d_y + normal,
+            adhesion_used: along / self.model.adhesion_limit(side),
+        }
     }
 }

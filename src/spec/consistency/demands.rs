@@ -93,7 +93,7 @@ fn lateral_stops(situation: &Situation, design: &DesignSpace, doubts: &mut Vec<D
     let mut chosen = design.parameters.iter().map(|(p, _)| p.constant());
     let is_open = chosen.any(|constant| constant == Parameter::SecondaryLateralStiffness);
     let weight = case.vehicle.carbody.mass * GRAVITY;
-    let lean = weight * case.service.cant_deficiency.abs() / (4.0 * secondary.lateral_stiffness);
+    let lean = weight * case.service.cant_deficiency().abs() / (4.0 * secondary.lateral_stiffness);
     if !is_open
         && let Some(stop) = situation.demands.get(index)
         && lean > stop

@@ -12,7 +12,11 @@ const RADIANS: f64 = std::f64::consts::PI / 180.0;
 pub(super) static SERVICE: &[Key<Case>] = &[
     key!("service.speed", "V", Speed, Positive, Required, "operating speed", service.speed),
     key!("service.curve", "D", DegreeOfCurve, PositiveUpTo(MAX_DEGREE * RADIANS), Optional("the tightest without flange contact or slip"), "degree of the curve in which forces on the rails are judged", service.curve),
-    key!("service.cant_deficiency", "φ_d", Angle, Between(-0.2, 0.2), Optional("0"), "cant deficiency there", service.cant_deficiency),
+    // Its value in force is zero where it is not given.
+    Key {
+        get: |case| Some(case.service.cant_deficiency()),
+        ..key!("service.cant_deficiency", "φ_d", Angle, Between(-0.2, 0.2), Optional("0"), "cant deficiency there", service.cant_deficiency)
+    },
 ];
 
 #[rustfmt::skip]
