@@ -2,7 +2,7 @@
 
 use toml::de::DeTable;
 
-use super::consistency::{Situation, contradictions, doubts};
+use super::consistency::{Situation, contradictions, doubts, without_curve};
 use super::diagnostic::{Diagnostic, MOST};
 use super::document::Document;
 use super::{
@@ -70,6 +70,7 @@ impl Spec {
         let conditions = conditions::read(&document, &own_tracks, &mut mistakes);
         let situations = Situation::all(&case, &demands, &document, &conditions, &mistakes);
         contradictions(&situations, &design, &front, &mut mistakes);
+        without_curve(&situations, &objective, &front, &mut mistakes);
         if !mistakes.is_empty() {
             return Err(Diagnostics::new(mistakes));
         }

@@ -13,11 +13,13 @@ use crate::spec::{Freedom, Spec};
 type Doubts = Vec<Diagnostic>;
 
 /// Indices of the service curve.
-const IN_CURVE: [Index; 4] = [
+const IN_CURVE: [Index; 6] = [
+    Index::SecondaryLateralStrokeInCurve,
     Index::WheelLOverV,
     Index::TruckSideLOverV,
     Index::NetAxleLOverV,
     Index::AdhesionUsed,
+    Index::CurveLimitRatio,
 ];
 
 /// Doubts about values without effect, or with less than their author may think.
@@ -101,25 +103,27 @@ fn air_spring(spec: &Spec, document: &Document, doubts: &mut Doubts) {
     }
 }
 
-/// The service curve is looked at only where something is asked in it.
+/// A design heeds the service curve only where something is asked in it.
 fn service_curve(spec: &Spec, document: &Document, situations: &[Situation], doubts: &mut Doubts) {
     let asked = IN_CURVE.iter().any(|index| {
         situations.iter().any(|s| s.demands.get(*index).is_some())
             || spec.objective.iter().any(|goal| goal.index == *index)
             || spec.front.indices.contains(index)
     });
+    let is_designed = !spec.design.parameters.is_empty();
     let paths = ["service.curve", "service.cant_deficiency"];
-    if !asked && let Some(value) = paths.iter().find_map(|path| document.get(path)) {
+    if is_designed
+        && !asked
+        && let Some(value) = paths.iter().find_map(|path| document.get(path))
+    {
         let names = IN_CURVE.map(Index::name).join(", ");
         doubts.push(
             Diagnostic::at(
                 value.span(),
-                "nothing is asked in the service curve",
-                format!("of use with one of: {names}"),
+                "nothing is asked in the service curve: the design does not heed it",
+                format!("asked with one of: {names}"),
             )
-            .help(
-                "`bogie curve --degree --cant-deficiency` shows the vehicle in a curve".to_owned(),
-            ),
+            .help("`bogie evaluate` and `bogie curve` show the vehicle in it".to_owned()),
         );
     }
 }

@@ -7,10 +7,12 @@ mod demands;
 mod design_space;
 mod effects;
 mod secondary;
+mod service_curve;
 mod situation;
 mod usual;
 
 pub(super) use contradictions::contradictions;
+pub(super) use service_curve::without_curve;
 pub(super) use situation::Situation;
 
 use super::Spec;
