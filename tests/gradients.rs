@@ -4,13 +4,16 @@ mod support;
 
 use bogie::{
     case::{Case, CurvingCreep, TruckRoll},
+    design::measure::{Wanted, measure, measure_graded},
     dynamics::{LateralModel, Poles, VerticalModel, curving::CurvingModel},
     evaluate::{
         critical_speed::Stability,
-        curving::{CurvingLimits, CurvingState, Limit},
+        curving::{CurvingLimits, CurvingState, Limit, ServiceCurve},
         gradients::{Constants, curving::CurvingTangents, modes},
         ride::{LateralRide, VerticalRide},
     },
+    index::Index,
+    optimize::problem::Piece,
     parameter::Parameter,
 };
 use rand::SeedableRng;
@@ -219,21 +222,26 @@ fn curves() {
             }
         }
         let degree = 1.0;
-        let exact = tangents.wheels(degree, &[0.0; 10]).unwrap();
+        let exact = tangents.state(degree, &[0.0; 10]).unwrap();
+        // Without cant deficiency the carbody does not lean, but for rounding.
+        let leans = |strokes: [f64; 2]| strokes.into_iter().filter(|_| cant_deficiency > 0.0);
         let all = |state: &CurvingState| {
             let wheels = state.wheels.iter().flatten();
-            wheels
-                .flat_map(|w| [w.lateral / w.vertical, w.adhesion_used])
-                .collect::<Vec<f64>>()
+            let forces = wheels.flat_map(|w| [w.lateral / w.vertical, w.adhesion_used]);
+            let places = state.wheelset_lateral.into_iter();
+            let strokes = leans(state.secondary_lateral_stroke);
+            forces.chain(places).chain(strokes).collect::<Vec<f64>>()
         };
         let state = CurvingState::new(&case, degree, cant_deficiency).unwrap();
         let exact: Vec<Vec<f64>> = exact
             .iter()
-            .map(|wheels| {
-                let pairs = wheels.iter().flatten().zip(state.wheels.iter().flatten());
-                pairs
-                    .flat_map(|(d, w)| [d.lateral / w.vertical, d.adhesion_used])
-                    .collect()
+            .map(|change| {
+                let wheels = change.wheels.iter().flatten();
+                let pairs = wheels.zip(state.wheels.iter().flatten());
+                let forces = pairs.flat_map(|(d, w)| [d.lateral / w.vertical, d.adhesion_used]);
+                let places = change.wheelset_lateral;
+                let strokes = leans(change.secondary_lateral_stroke);
+                forces.chain(places).chain(strokes).collect()
             })
             .collect();
         let same = |case: &Case| CurvingState::new(case, degree, cant_deficiency).unwrap();
@@ -245,8 +253,63 @@ fn curves() {
             })
         });
         if smooth {
-            compare("wheel", &case, &exact, 1e-6, |case| all(&same(case)));
+            compare("state in a curve", &case, &exact, 1e-6, |case| {
+                all(&same(case))
+            });
         }
     }
     assert!(compared >= 100, "{compared}");
+}
+
+/// Of the indices of the service curve, piece by piece, with the curve given and with the tightest,
+/// which itself changes: 1e-4 of the largest derivative, as the random stroke is part of one of them.
+#[test]
+fn indices_of_the_service_curve() {
+    let mut compared = [0; 2];
+    for (n, mut case) in vehicles(4, 60, 1.5).into_iter().enumerate() {
+        case.service.curve = [Some(0.01), None][n % 2];
+        case.service.cant_deficiency = [None, Some(0.03)][n / 2 % 2];
+        let indices = [Index::CurveLimitRatio, Index::SecondaryLateralStrokeInCurve];
+        for (index, compared) in indices.into_iter().zip(&mut compared) {
+            let wanted = [Wanted::Index(index)];
+            let Ok(mut graded) = measure_graded(&case, &wanted, &Parameter::TEN) else {
+                continue;
+            };
+            let pieces = graded.remove(0);
+            let values = |case: &Case| -> Option<Vec<f64>> {
+                let pieces = measure(case, &wanted).ok()?.remove(0);
+                Some(pieces.iter().map(|piece| piece.value).collect())
+            };
+            // Not across a breakaway or another limit that governs, where the slope changes.
+            let place = |case: &Case| {
+                let curve = ServiceCurve::of(case).ok()?;
+                let limits = CurvingLimits::new(case, 0.0).ok()?;
+                let governing = limits.governing().map(|limited| limited.limit);
+                let state = curve.state?;
+                let sides = state.wheelset_lateral.map(|y| y > 0.0);
+                Some((state.breakaway, governing, sides))
+            };
+            let smooth = Parameter::TEN.into_iter().all(|constant| {
+                [-2.0, 2.0].into_iter().all(|k| {
+                    let mut other = case.clone();
+                    constant.set(&mut other, constant.get(&case) * (1.0 + k * STEP));
+                    values(&other).is_some() && place(&other) == place(&case)
+                })
+            });
+            if !smooth || pieces.is_empty() {
+                continue;
+            }
+            let exact: Vec<Vec<f64>> = (0..Parameter::TEN.len())
+                .map(|p| {
+                    let slope = |piece: &Piece| piece.gradient.as_ref().unwrap()[p];
+                    pieces.iter().map(slope).collect()
+                })
+                .collect();
+            compare(index.name(), &case, &exact, 1e-4, |case| {
+                values(case).unwrap()
+            });
+            *compared += 1;
+        }
+    }
+    assert!(compared.iter().all(|count| *count > 10), "{compared:?}");
 }

@@ -201,6 +201,68 @@ fn what_has_no_value_says_so() {
     assert!(unstable > 5, "{unstable}");
 }
 
+/// A demand on forces outside the model is not assessed; what is not met besides counts first; within the
+/// model there is a value and a verdict.
+#[test]
+fn forces_outside_the_model_are_not_assessed() {
+    let spec = SPEC.replace("track =", "curve = \"1 deg\"\ntrack =");
+    let spec = format!("{spec}least_damping_ratio = 0.02\n").replace(
+        "[limits]\n",
+        "[limits]\nwheel_l_over_v = 0.8\nsecondary_lateral_stroke_in_curve = \"3 in\"\n",
+    );
+    let lines = sweep(&spec, &["--designs", "64", "--format", "json"]);
+    let (mut open, mut failed, mut within) = (0, 0, 0);
+    for line in lines.lines() {
+        let row: Value = serde_json::from_str(line).unwrap();
+        let status = row["status"].as_str().unwrap();
+        let ratio = row["wheel_l_over_v"].as_f64();
+        assert_eq!(
+            ratio.is_none(),
+            status.contains("wheel_l_over_v: outside-model")
+        );
+        let is_outside = ratio.is_none();
+        if is_outside {
+            assert!(row["secondary_lateral_stroke_in_curve_m"].is_null());
+            let below = row["critical_speed_m_per_s"]
+                .as_f64()
+                .is_none_or(|v| v < 67.05);
+            match row["meets_all"].as_str().unwrap() {
+                "not-assessed" => {
+                    assert!(!below, "{row}");
+                    open += 1;
+                }
+                verdict => {
+                    assert_eq!(verdict, "no", "{row}");
+                    failed += 1;
+                }
+            }
+        } else {
+            assert_ne!(row["meets_all"], "not-assessed");
+            within += 1;
+        }
+    }
+    assert!(
+        open > 3 && failed > 3 && within > 3,
+        "{open} {failed} {within}"
+    );
+}
+
+/// What is asked of the stroke in a curve holds in the conditions that give one.
+#[test]
+fn a_curve_in_a_condition_alone() {
+    let spec = format!(
+        "{SPEC}\n[conditions.curved]\nservice.curve = \"0.2 deg\"\nservice.cant_deficiency = \"1 deg\"\n"
+    )
+    .replace("[limits]\n", "[limits]\nsecondary_lateral_stroke_in_curve = \"BOUND\"\n");
+    let met = |bound: &str| {
+        let text = sweep(&spec.replace("BOUND", bound), &["--designs", "32"]);
+        assert!(text.contains("secondary_lateral_stroke_in_curve: no curve in [service]"));
+        text.matches(",yes,").count()
+    };
+    let [wide, narrow] = ["9 in", "0.1 in"].map(met);
+    assert!(wide > 0 && narrow == 0, "{wide} {narrow}");
+}
+
 /// What is asked in a condition counts too.
 #[test]
 fn conditions_are_asked_as_well() {

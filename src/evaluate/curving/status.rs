@@ -68,7 +68,7 @@ impl std::fmt::Display for CurveStatus {
         match self {
             Self::WithinModel => Ok(()),
             Self::OutsideModel { limit, ratio } => {
-                write!(f, ": {limit}, {ratio:.2} times its limit")
+                write!(f, ": {limit}, {ratio:.3} times its limit")
             }
             Self::WheelLifted(side) => {
                 write!(
