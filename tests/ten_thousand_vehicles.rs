@@ -178,7 +178,7 @@ fn every_number_of_curves_modes_and_spectra_is_a_number() {
             let is_force = |path: &String| forces.iter().any(|end| path.ends_with(end));
             let none = of_curve.iter().filter(|path| is_force(path)).count();
             let within = value["status"] == "within-model";
-            assert_eq!(none, if within { 0 } else { 8 }, "vehicle {seed}");
+            assert_eq!(none, if within { 0 } else { 9 }, "vehicle {seed}");
             if value["status"] != "wheel-lifted" {
                 found.extend(of_curve.into_iter().filter(|path| !is_force(path)));
             }
