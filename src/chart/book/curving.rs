@@ -110,39 +110,14 @@ pub(super) fn boundary(book: &Workbook, entry: &Entry) -> Figure {
             Stroke::new(Ink::Black, Dash::Solid).weight(Weight::Bold),
             &slip,
         ));
-    // The share of μN left at the other wheel, every degree.
-    for (i, limits) in limits.iter().enumerate() {
-        let angle = cant[i].to_degrees();
-        let shown = (angle - angle.round()).abs() < 1e-9 && angle > -5.9 && angle < 5.9;
-        if let (true, Some(slip)) = (shown, limits.as_ref().and_then(|l| l.slip)) {
-            let left = format!("{:.0} %", 100.0 * slip.other_wheel_reserve.max(0.0));
-            panel = panel.mark(Mark::new(
-                [slip.degree, cant[i]],
-                Symbol::Dot,
-                Ink::Black,
-                left,
-            ));
-        }
-    }
+    panel.marks.extend(shares_left(&cant, &limits));
     panel.keys.push(Mark::new(
         [0.0; 2],
         Symbol::Dot,
         Ink::Black,
         "share of μN left at the other wheel of the slipping wheelset",
     ));
-    let [low, high] = CANT.map(f64::to_radians);
-    for (range, label) in [
-        ([lift, high], "inner wheels lifted"),
-        ([low, -lift], "outer wheels lifted"),
-    ] {
-        if range[0] < range[1] {
-            panel = panel.shade(Shade {
-                axis: Direction::Y,
-                range,
-                label: label.into(),
-            });
-        }
-    }
+    panel.shades.extend(lifted(lift));
     let fra = CANT_DEFICIENCY / SUPERELEVATION_BASE;
     panel = panel.limit(Limit {
         axis: Direction::Y,
@@ -165,7 +140,7 @@ pub(super) fn boundary(book: &Workbook, entry: &Entry) -> Figure {
             "Cant deficiency over degree curve: boundaries beyond which a wheelset touches a \
              flange or a wheel slips, with the wheel named along the boundary.",
         );
-    if lift < high {
+    if !figure.panels[0].shades.is_empty() {
         figure = figure.note(format!(
             "The boundary ends at {}° of cant deficiency: there the load transfer exceeds the static \
              load of the wheels on one side, and they lift.",
@@ -182,6 +157,42 @@ pub(super) fn boundary(book: &Workbook, entry: &Entry) -> Figure {
         ],
     );
     figure
+}
+
+/// Ranges of the chart in which the wheels on one side are lifted.
+fn lifted(lift: f64) -> Vec<Shade> {
+    let [low, high] = CANT.map(f64::to_radians);
+    let ranges = [
+        ([lift, high], "inner wheels lifted"),
+        ([low, -lift], "outer wheels lifted"),
+    ];
+    let inside = ranges.into_iter().filter(|([from, to], _)| from < to);
+    inside
+        .map(|(range, label)| Shade {
+            axis: Direction::Y,
+            range,
+            label: label.into(),
+        })
+        .collect()
+}
+
+/// The share of μN left at the other wheel on the slip boundary, every degree.
+fn shares_left(cant: &[f64], limits: &[Option<CurvingLimits>]) -> Vec<Mark> {
+    let mut marks = Vec::new();
+    for (angle, limits) in cant.iter().zip(limits) {
+        let degrees = angle.to_degrees();
+        let shown = (degrees - degrees.round()).abs() < 1e-9 && degrees.abs() < 5.9;
+        if let (true, Some(slip)) = (shown, limits.as_ref().and_then(|l| l.slip)) {
+            let left = format!("{:.0} %", 100.0 * slip.other_wheel_reserve.max(0.0));
+            marks.push(Mark::new(
+                [slip.degree, *angle],
+                Symbol::Dot,
+                Ink::Black,
+                left,
+            ));
+        }
+    }
+    marks
 }
 
 /// A part of a boundary at which one limit governs.

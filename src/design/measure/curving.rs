@@ -51,25 +51,6 @@ pub(super) fn not_covered(case: &Case) -> Option<Failure> {
     }
 }
 
-/// Quasi-static secondary lateral strokes of trucks 1 and 2 in a curve of `degree` degrees, m, and
-/// their derivatives by some constants, where these can be had.
-///
-/// # Errors
-///
-/// [`Failure`] if there is no steady-state solution.
-pub(super) fn secondary_strokes(
-    case: &Case,
-    degree: f64,
-    constants: Option<&Constants>,
-) -> Result<([f64; 2], Option<Vec<[f64; 2]>>), Failure> {
-    let by = constants.map(|constants| (constants, vec![0.0; constants.len()]));
-    let curve = Curve::new(case, degree, by)?;
-    let strokes = |change: &CurveChange| change.secondary_lateral_stroke;
-    let by = curve.changes.as_ref();
-    let by = by.map(|all| all.iter().map(strokes).collect());
-    Ok((curve.state.secondary_lateral_stroke, by))
-}
-
 impl<'a> Curves<'a> {
     pub fn new(case: &'a Case, constants: Option<&'a Constants>) -> Self {
         Self {
@@ -156,7 +137,15 @@ impl<'a> Curves<'a> {
 impl Curve {
     /// A case in a curve of `degree` degrees; with the constants by which it is differentiated, and
     /// the derivatives of the curve itself by these.
-    fn new(case: &Case, degree: f64, by: Option<(&Constants, Vec<f64>)>) -> Result<Self, Failure> {
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`] if there is no steady-state solution.
+    pub(super) fn new(
+        case: &Case,
+        degree: f64,
+        by: Option<(&Constants, Vec<f64>)>,
+    ) -> Result<Self, Failure> {
         let cant_deficiency = case.service.cant_deficiency();
         let model = CurvingModel::new(case, cant_deficiency).map_err(no_curve)?;
         let clearance = case.wheel_rail.flange_clearance;
@@ -168,6 +157,17 @@ impl Curve {
             changes,
             clearance,
         })
+    }
+
+    /// Quasi-static secondary lateral stroke of truck `j`, m.
+    pub(super) fn secondary_stroke(&self, j: usize) -> f64 {
+        self.state.secondary_lateral_stroke[j]
+    }
+
+    /// Its derivatives by each constant, where these can be had.
+    pub(super) fn secondary_stroke_changes(&self, j: usize) -> Option<Vec<f64>> {
+        let of = |change: &CurveChange| change.secondary_lateral_stroke[j];
+        Some(self.changes.as_ref()?.iter().map(of).collect())
     }
 
     fn pieces(&self, index: Index) -> Vec<Piece> {

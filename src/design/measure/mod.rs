@@ -5,6 +5,8 @@ mod ride;
 mod stability;
 mod statics;
 
+use std::cell::OnceCell;
+
 use crate::{
     case::Case,
     dynamics::{EigenError, ForcedTangent, LateralModel, Poles, VerticalModel},
@@ -127,10 +129,10 @@ impl<'a> Job<'a> {
     /// The lateral model's indices beside those of the other models.
     fn run(&self) -> Vec<Measured> {
         let numbered = self.wanted.iter().copied().enumerate();
-        let mut status = None;
+        let status = OnceCell::new();
         let (mut known, mut open) = (Vec::new(), Vec::new());
         for (i, wanted) in numbered {
-            match self.known(wanted, &mut status) {
+            match self.known(wanted, &status) {
                 Some(measured) => known.push((i, measured)),
                 None => open.push((i, wanted)),
             }
@@ -147,7 +149,7 @@ impl<'a> Job<'a> {
 
     /// A result that is known without the models: no pieces where the service gives no curve, and in a
     /// verdict none where the model does not cover it. `status` keeps why, once it is known.
-    fn known(&self, wanted: Wanted, status: &mut Option<Option<Failure>>) -> Option<Measured> {
+    fn known(&self, wanted: Wanted, status: &OnceCell<Option<Failure>>) -> Option<Measured> {
         let Wanted::Index(index) = wanted else {
             return None;
         };
@@ -155,9 +157,7 @@ impl<'a> Job<'a> {
             return Some(Ok(Vec::new()));
         }
         if index.is_in_service_curve() && self.purpose == Purpose::Verdict {
-            return status
-                .get_or_insert_with(|| not_covered(self.case))
-                .map(Err);
+            return status.get_or_init(|| not_covered(self.case)).map(Err);
         }
         None
     }

@@ -1,6 +1,6 @@
 //! Ride and strokes.
 
-use super::{BANDS, Lateral, Measured, Vertical, curving::secondary_strokes, no_ride, pieces};
+use super::{BANDS, Lateral, Measured, Vertical, curving::Curve, no_ride, pieces};
 use crate::{
     evaluate::{
         limits::PEAK,
@@ -70,15 +70,17 @@ impl Lateral<'_> {
         let Some(angle) = self.case.service.curve else {
             return Ok(Vec::new());
         };
-        let (state, changes) = secondary_strokes(self.case, angle.to_degrees(), self.constants)?;
+        let by_constants = self.constants.map(|c| (c, vec![0.0; c.len()]));
+        let curve = Curve::new(self.case, angle.to_degrees(), by_constants)?;
         let piece = |j: usize| {
-            let change = |(ride, strokes): (&LateralRide, &[f64; 2])| {
-                state[j].signum() * strokes[j] + PEAK * ride.secondary_stroke[j]
+            let stroke = curve.secondary_stroke(j);
+            let change = |(ride, change): (&LateralRide, f64)| {
+                stroke.signum() * change + PEAK * ride.secondary_stroke[j]
             };
-            let changes = changes.as_ref();
+            let changes = curve.secondary_stroke_changes(j);
             Piece {
                 gradient: changes.map(|changes| by.iter().zip(changes).map(change).collect()),
-                ..Piece::single(j, taken(state[j], ride.secondary_stroke[j]))
+                ..Piece::single(j, taken(stroke, ride.secondary_stroke[j]))
             }
         };
         Ok((0..2).map(piece).collect())
