@@ -5,8 +5,8 @@ mod support;
 use bogie::{
     case::Case,
     design::{
-        margin::value,
-        outcome::{Delivered, DesignResult},
+        margin::{Verdict, value},
+        outcome::{Delivered, DesignResult, StageResult},
         procedure::design,
     },
     export::status,
@@ -22,7 +22,10 @@ use bogie::{
 use support::assert_ratio;
 
 fn read(name: &str) -> Spec {
-    let path = format!("{}/tests/data/verdicts/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let path = format!(
+        "{}/tests/data/verdicts/{name}.toml",
+        env!("CARGO_MANIFEST_DIR")
+    );
     Spec::read(&std::fs::read(&path).unwrap()).unwrap_or_else(|_| panic!("{name} is no spec"))
 }
 
@@ -89,11 +92,30 @@ fn a_limit_without_variable_is_named_and_leaves_the_rest_alone() {
 /// lateral suspension can be chosen beside it: all at once finds one that runs.
 #[test]
 fn a_compromise_that_hunts_is_not_the_last_word() {
-    let result = run(&read("compromise-unstable-in-turn"));
+    let mut spec = read("met-all-at-once-only");
+    spec.demands.set(Index::CriticalSpeed, 240.0 / 3.6);
+    spec.demands.set(Index::DegreeCurve, 8.0_f64.to_radians());
+    let result = run(&spec);
+    let unstable = |stage: &StageResult| stage.failure() == Some(Failure::Unstable);
+    assert!(result.stages.iter().any(unstable));
     assert!(!result.met() && result.failure().is_none());
     assert_eq!(result.delivered, Delivered::AllAtOnce);
     assert!(result.margins.iter().all(|margin| margin.reached.is_ok()));
     assert_eq!(status::of_run(&result), "infeasible");
+}
+
+/// Adhesion in a curve of 300 m cannot be assessed; what can be met is met by a design that runs.
+#[test]
+fn a_limit_on_adhesion_out_of_reach_leaves_the_rest_met() {
+    let result = run(&read("adhesion-beyond-slip"));
+    for margin in &result.margins {
+        let expected = match margin.index {
+            Index::AdhesionUsed => Verdict::NotAssessed,
+            _ => Verdict::Met,
+        };
+        assert_eq!(margin.verdict(), expected, "{:?}", margin.index);
+    }
+    assert_eq!(status::of_run(&result), "not-assessed");
 }
 
 /// Demands within the tolerance are met: nothing in the same result says that they are out of reach.
@@ -110,7 +132,11 @@ fn one_tolerance_decides_whether_a_demand_is_met() {
 #[test]
 fn where_nothing_can_be_evaluated_the_design_stays_as_given() {
     for order in ["in-turn", "joint"] {
-        let order = if order == "joint" { "order = \"joint\"\n" } else { "" };
+        let order = if order == "joint" {
+            "order = \"joint\"\n"
+        } else {
+            ""
+        };
         let source = format!(
             "[vehicle]\nbase = \"prototype\"\n[service]\nspeed = \"500 mph\"\n[design]\n{order}\
              secondary_lateral_damping_ratio = [0.1, 0.5]\n"
@@ -188,9 +214,17 @@ fn prices_of_a_critical_speed_are_in_terms_of_the_speed() {
     let spec = support::problem("intercity-130mph");
     let result = run(&spec);
     let stage = &result.stages[1].explained;
-    let price = stage.prices.iter().find(|p| p.index == Index::CriticalSpeed);
+    let price = stage
+        .prices
+        .iter()
+        .find(|p| p.index == Index::CriticalSpeed);
     let price = price.unwrap();
-    assert_ratio("multiplier", price.multiplier, price.per_unit * price.bound, 1e-12);
+    assert_ratio(
+        "multiplier",
+        price.multiplier,
+        price.per_unit * price.bound,
+        1e-12,
+    );
     for (chosen, elasticity) in stage.chosen.iter().zip(&price.elasticities) {
         let mut case = result.case.clone();
         // The stage was solved beside the lateral suspension of the round before, within 1e-4.
@@ -202,4 +236,84 @@ fn prices_of_a_critical_speed_are_in_terms_of_the_speed() {
             chosen.variable.symbol
         );
     }
+}
+
+/// In a curve that no suspension runs without flange contact, a limit on L/V is neither met nor missed;
+/// the curve is brought as near to the model as the other demands allow.
+#[test]
+fn forces_beyond_flange_contact_are_not_assessed() {
+    let spec = read("curve-beyond-flange-contact");
+    let result = run(&spec);
+    let forces = result
+        .margins
+        .iter()
+        .find(|m| m.index == Index::WheelLOverV);
+    let forces = forces.unwrap();
+    assert_eq!(forces.verdict(), Verdict::NotAssessed);
+    assert_eq!(forces.reached, Err(Failure::OutsideModel));
+    assert!(!result.met());
+    let others = result
+        .margins
+        .iter()
+        .filter(|m| m.index != Index::WheelLOverV);
+    assert!(others.map(|margin| margin.met()).all(|met| met));
+    assert_eq!(status::of_run(&result), "not-assessed");
+    let ratio = |case: &Case| value(case, Index::CurveLimitRatio).unwrap();
+    assert!(ratio(&result.case) < ratio(&spec.case));
+}
+
+/// Where a lighter demand can be had within the model, it is: at 1° the same limit is assessed and met.
+#[test]
+fn forces_within_the_model_are_assessed() {
+    let mut spec = read("curve-beyond-flange-contact");
+    spec.case.service.curve = Some(1.0_f64.to_radians());
+    let result = run(&spec);
+    assert!(result.met(), "{:?}", result.margins);
+    assert!(value(&result.case, Index::CurveLimitRatio).unwrap() <= 1.0 + 1e-4);
+}
+
+/// A wheel that lifts at the service's cant deficiency has no forces, whatever the suspension: the
+/// demand on them is not assessed and the rest is designed.
+#[test]
+fn a_lifted_wheel_leaves_demands_on_forces_unassessed() {
+    let lifted = read("lifted-wheel").case;
+    let source = "[vehicle]\nbase = \"prototype\"\n[design]\n\
+                  primary_bending_stiffness = [\"1 MN m/rad\", \"9 MN m/rad\"]\n\
+                  [requirements]\ncritical_speed = \"150 mph\"\n[limits]\nwheel_l_over_v = 0.8\n";
+    let mut spec = Spec::read(source.as_bytes()).unwrap_or_else(|_| panic!("{source}"));
+    spec.case = lifted;
+    let result = run(&spec);
+    let verdict = |index| {
+        let margin = result.margins.iter().find(|m| m.index == index);
+        margin.unwrap().verdict()
+    };
+    assert_eq!(verdict(Index::WheelLOverV), Verdict::NotAssessed);
+    assert_eq!(verdict(Index::CriticalSpeed), Verdict::Met);
+    assert_eq!(status::of_run(&result), "not-assessed");
+    assert_eq!(result.stages[0].explained.status, Status::Optimal);
+}
+
+/// Stops of 25 mm: without a limit on the stroke in the curve the vehicle leans on them, with it the
+/// springs are chosen so that it does not.
+#[test]
+fn stops_see_the_curve() {
+    let mut spec = read("stops-in-curve");
+    let stops = spec.demands.get(Index::SecondaryLateralStroke).unwrap();
+    let in_curve = |result: &DesignResult| {
+        let mut case = result.case.clone();
+        // Slip ends the model just short of this curve.
+        case.service.curve = Some(1.0_f64.to_radians());
+        value(&case, Index::SecondaryLateralStrokeInCurve).unwrap()
+    };
+    let without = run(&spec);
+    assert!(without.met() && in_curve(&without) > 2.0 * stops);
+    spec.demands
+        .set(Index::SecondaryLateralStrokeInCurve, stops);
+    let with = run(&spec);
+    let margin = with
+        .margins
+        .iter()
+        .find(|m| m.index == Index::SecondaryLateralStrokeInCurve);
+    assert_eq!(margin.unwrap().verdict(), Verdict::Met);
+    assert!(in_curve(&with) < 1.01 * stops);
 }

@@ -11,11 +11,15 @@
 //! Behringer, *A simplex based algorithm for the lexicographically extended linear maxmin problem*,
 //! European Journal of Operational Research 7, 1981). The objective decides among the designs that
 //! remain.
+//!
+//! Forces and strokes in a curve are assessed only where the linear model covers the curve. Where
+//! they are asked for, the other demands come first; then the curve is brought as far within the
+//! model as they allow; then, if it is within, the demands on forces and strokes follow.
 
 use super::{
     lifted::{Lifted, solve_lifted},
     measure::worst,
-    study::{Role, Study},
+    study::{Role, Study, Term},
 };
 use crate::{
     index::{Demand, Index, Scale, Sense},
@@ -100,33 +104,36 @@ pub fn compromise(
     let mut x = found.point.x[..n].to_vec();
     let mut missed: Vec<Missed> = Vec::new();
     let mut effort = found.effort.clone();
-    for group in 0..study.demands().count() {
-        let (open, kept) = open_shortfall(study, &missed);
-        if kept.is_empty() || archive.stopped().is_some() {
-            break;
-        }
-        let from = start.clone().with(vec![x.clone()]).thoroughly();
-        let closest = solve_lifted(&open, &from, archive)?;
-        effort.add(&closest.solved.effort);
-        x = closest.solved.point.x[..n].to_vec();
-        let Ok(values) = &closest.solved.point.values else {
-            break;
-        };
-        if values.objective() <= 0.0 {
-            break;
-        }
-        let reached = Reached::new(&open, &x);
-        for (k, share) in holding(&closest, values, kept.len()) {
-            missed.push(reached.missed(study, [kept[k], k], group, share));
+    let mut ranks: Vec<usize> = study.demands().map(|i| study.terms()[i].rank()).collect();
+    ranks.sort_unstable();
+    ranks.dedup();
+    let mut group = 0;
+    for rank in ranks {
+        while archive.stopped().is_none() {
+            let (open, kept) = open_shortfall(study, rank, &missed);
+            if kept.is_empty() {
+                break;
+            }
+            let from = start.clone().with(vec![x.clone()]).thoroughly();
+            let closest = solve_lifted(&open, &from, archive)?;
+            effort.add(&closest.solved.effort);
+            x = closest.solved.point.x[..n].to_vec();
+            let held = match &closest.solved.point.values {
+                Ok(values) if values.objective() > 0.0 => holding(&closest, values, kept.len()),
+                _ => break,
+            };
+            let reached = Reached::new(&open, &x);
+            let shares = held.into_iter();
+            missed
+                .extend(shares.map(|(k, share)| reached.missed(study, [kept[k], k], group, share)));
+            group += 1;
         }
     }
     let mut last = best_of_relaxed(&relax(study, &missed), start, x, archive)?;
     last.solved.effort.add(&effort);
-    let (all, terms) = open_shortfall(study, &[]);
-    let reached = Reached::new(&all, &last.solved.point.x[..n]);
     for missed in &mut missed {
-        let k = terms.iter().position(|term| *term == missed.term);
-        missed.reached = k.and_then(|k| reached.value(k));
+        let alone = study.with_roles(|i, term| (i == missed.term).then_some(as_objective(term)));
+        missed.reached = Reached::new(&alone, &last.solved.point.x[..n]).value(0);
     }
     let unmet = missed.iter().any(|missed| !missed.met());
     let ended = matches!(
@@ -186,30 +193,58 @@ fn best_of_relaxed(
 
 /// The demands of a study as its objective: the largest relative shortfall.
 pub fn shortfall(study: &Study) -> Study {
-    open_shortfall(study, &[]).0
+    study.with_roles(|_, term| match term.role {
+        Role::Objective { .. } => None,
+        Role::Constraint { .. } => Some(as_objective(term)),
+    })
 }
 
-/// The demands that are not missed as the objective, the missed ones as constraints with relaxed
-/// bounds; and the numbers that the terms of the objective, which come first, have in the study.
-fn open_shortfall(study: &Study, missed: &[Missed]) -> (Study, Vec<usize>) {
-    let is_open = |i: usize| !missed.iter().any(|missed| missed.term == i);
-    let kept: Vec<usize> = study.demands().filter(|i| is_open(*i)).collect();
-    let open = study.with_roles(|i, term| match term.role {
-        Role::Constraint { bound } if is_open(i) => Some(Role::Objective {
+/// The role of a demand whose shortfall is to be as small as can be.
+fn as_objective(term: &Term) -> Role {
+    match term.role {
+        Role::Constraint { bound } => Role::Objective {
             group: 0,
             weight: 1.0,
             origin: bound,
-        }),
-        _ => None,
-    });
-    let relaxed = study.with_roles(|i, _| relaxed_role(missed.iter().find(|m| m.term == i)?));
-    (open.and_terms_of(&relaxed), kept)
+        },
+        objective @ Role::Objective { .. } => objective,
+    }
 }
 
-/// The study with the bounds of missed demands relaxed to what they reach. A missed demand without
-/// a value is left out.
+/// The demands of a rank that are not missed as the objective, those of lower rank as constraints,
+/// missed ones with relaxed bounds; and the numbers that the terms of the objective, which come
+/// first, have in the study.
+fn open_shortfall(study: &Study, rank: usize, missed: &[Missed]) -> (Study, Vec<usize>) {
+    let role = |i: usize| missed.iter().find(|m| m.term == i);
+    let is_open = |i: usize| {
+        let term = &study.terms()[i];
+        term.rank() == rank && role(i).is_none() && !is_void(study, term, missed)
+    };
+    let kept: Vec<usize> = study.demands().filter(|i| is_open(*i)).collect();
+    let open = study.with_roles(|i, term| kept.contains(&i).then(|| as_objective(term)));
+    let kept_bounds = study.with_roles(|i, term| match role(i) {
+        _ if matches!(term.role, Role::Objective { .. }) => None,
+        Some(missed) => relaxed_role(missed),
+        None => (term.rank() < rank).then_some(term.role),
+    });
+    (open.and_terms_of(&kept_bounds), kept)
+}
+
+/// Whether the model does not cover a term: it is a force or stroke in a curve that is not brought
+/// within the model.
+fn is_void(study: &Study, term: &Term, missed: &[Missed]) -> bool {
+    let is_outside = |m: &Missed| {
+        let other = &study.terms()[m.term];
+        other.implied && other.condition == term.condition && !m.met()
+    };
+    term.index.is_in_service_curve() && missed.iter().any(is_outside)
+}
+
+/// The study with the bounds of missed demands relaxed to what they reach. Terms that the model does
+/// not cover and missed demands without a value are left out.
 fn relax(study: &Study, missed: &[Missed]) -> Study {
     study.with_roles(|i, term| match missed.iter().find(|m| m.term == i) {
+        _ if is_void(study, term, missed) => None,
         Some(missed) => relaxed_role(missed),
         None => Some(term.role),
     })

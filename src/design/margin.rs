@@ -1,6 +1,6 @@
 //! How a design stands to what is asked of it, in every condition.
 
-use super::measure::{Wanted, measure, worst};
+use super::measure::{Wanted, absence, measure_each, worst};
 use crate::{
     case::Case,
     index::{Demand, Demands, Index, Sense},
@@ -21,6 +21,17 @@ pub struct Margin {
     pub reached: Result<f64, Failure>,
 }
 
+/// How a design stands to a demand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// It keeps the bound.
+    Met,
+    /// It does not, or it has no such performance.
+    NotMet,
+    /// The model does not cover the index there.
+    NotAssessed,
+}
+
 impl Margin {
     fn demand(&self) -> Demand {
         Demand {
@@ -29,11 +40,18 @@ impl Margin {
         }
     }
 
+    /// How the design stands to it.
+    pub fn verdict(&self) -> Verdict {
+        match self.reached {
+            Ok(reached) if self.demand().met_by(reached) => Verdict::Met,
+            Err(failure) if failure.is_not_covered() => Verdict::NotAssessed,
+            _ => Verdict::NotMet,
+        }
+    }
+
     /// Whether the demand is met.
     pub fn met(&self) -> bool {
-        self.reached
-            .as_ref()
-            .is_ok_and(|reached| self.demand().met_by(*reached))
+        self.verdict() == Verdict::Met
     }
 
     /// How far the value reached falls short of the bound, relative, or as it is for damping ratios;
@@ -61,30 +79,32 @@ impl Margin {
 ///
 /// [`Failure`] where the case has no such performance.
 pub fn value(case: &Case, index: Index) -> Result<f64, Failure> {
-    let pieces = measure(case, &[Wanted::Index(index)])?;
-    pieces
-        .first()
-        .and_then(|pieces| worst(index, pieces))
-        .ok_or(Failure::NoMode)
+    let measured = measure_each(case, &[Wanted::Index(index)]);
+    let pieces = measured.into_iter().next();
+    let pieces = pieces.unwrap_or_else(|| Err(absence(index)))?;
+    worst(index, &pieces).ok_or_else(|| absence(index))
 }
 
-/// The worst value of an index over the nominal and further conditions, SI.
+/// The worst value of an index over the nominal and further conditions, SI. A condition without the
+/// curve that an index belongs to does not count.
 ///
 /// # Errors
 ///
 /// [`Failure`] where the case has no such performance in one of them.
 pub fn worst_value(case: &Case, conditions: &[Condition], index: Index) -> Result<f64, Failure> {
-    let nominal = value(case, index)?;
-    conditions.iter().try_fold(nominal, |worst, condition| {
-        let value = value(&condition.apply(case), index)?;
-        Ok(match index.sense() {
-            Sense::AtLeast => worst.min(value),
-            Sense::AtMost => worst.max(value),
-        })
-    })
+    let further = conditions.iter().map(|condition| condition.apply(case));
+    let values = std::iter::once(case.clone()).chain(further);
+    let values = values.map(|case| value(&case, index));
+    let values = values.filter(|value| *value != Err(Failure::NoServiceCurve));
+    let all: Vec<f64> = values.collect::<Result<_, _>>()?;
+    let worst = match index.sense() {
+        Sense::AtLeast => all.into_iter().min_by(f64::total_cmp),
+        Sense::AtMost => all.into_iter().max_by(f64::total_cmp),
+    };
+    worst.ok_or(Failure::NoServiceCurve)
 }
 
-/// All demands on a design.
+/// All demands on a design. A demand on an index of a curve is none where there is no curve.
 pub fn margins(case: &Case, demands: &Demands, conditions: &[Condition]) -> Vec<Margin> {
     let nominal = std::iter::once((None, case.clone(), demands.clone()));
     let further = conditions.iter().map(|condition| {
@@ -102,6 +122,7 @@ pub fn margins(case: &Case, demands: &Demands, conditions: &[Condition]) -> Vec<
                     required: demand.bound,
                     reached: value(&case, demand.index),
                 })
+                .filter(|margin| margin.reached != Err(Failure::NoServiceCurve))
                 .collect();
             margins
         })

@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use super::{
     conflict::conflict,
-    margin::{Margin, margins, worst_value},
+    margin::{Margin, Verdict, margins, worst_value},
     outcome::{Compared, Delivered, DesignResult, Joint, StageResult, half_kalker, in_conditions},
     search::Searched,
     stage::{self, Stage, StageInput},
@@ -125,6 +125,25 @@ struct Chosen {
     joint: Option<(Joint, Searched)>,
 }
 
+/// How a design stands to the demands.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Standing {
+    /// Largest relative shortfall; infinite where a demand has no value, or where a search that led to
+    /// the design found none with a performance.
+    shortfall: f64,
+    /// Demands that the models do not cover at the design.
+    not_assessed: usize,
+}
+
+impl Standing {
+    fn is_better_than(&self, other: &Self) -> bool {
+        let gain = other.shortfall - self.shortfall;
+        // Both may be infinite.
+        let same = gain.is_nan() || gain.abs() <= MET;
+        gain > MET || same && self.not_assessed < other.not_assessed
+    }
+}
+
 impl Procedure<'_> {
     fn run<T: Send>(
         &self,
@@ -141,8 +160,8 @@ impl Procedure<'_> {
         }
         let mut chosen = self.sequential(open);
         let stages = chosen.stages.iter().map(|stage| &stage.result);
-        let in_turn = self.shortfall(&chosen.case, stages);
-        let short = in_turn > 0.0;
+        let in_turn = self.standing(&chosen.case, stages);
+        let short = in_turn != Standing::default();
         let compare = (open.len() > 1 || short) && self.archive.stopped().is_none();
         if !compare {
             let made = beside(&chosen.case);
@@ -157,7 +176,9 @@ impl Procedure<'_> {
         // In turn something is missed: all at once may meet it.
         chosen.joint = self.joint(&chosen.case);
         if let Some((joint, _)) = &chosen.joint
-            && self.shortfall(&joint.case, [&joint.stage]) < in_turn - MET
+            && self
+                .standing(&joint.case, [&joint.stage])
+                .is_better_than(&in_turn)
         {
             chosen.case = joint.case.clone();
             chosen.delivered = Delivered::AllAtOnce;
@@ -170,14 +191,21 @@ impl Procedure<'_> {
         margins(case, &self.spec.demands, &self.spec.conditions)
     }
 
-    /// Largest relative shortfall of a design; infinite where a demand has no value, or where one of
-    /// the searches that led to it found no design with a performance.
-    fn shortfall<'r>(&self, case: &Case, stages: impl IntoIterator<Item = &'r StageResult>) -> f64 {
-        if stages.into_iter().any(|stage| stage.failure().is_some()) {
-            return f64::INFINITY;
-        }
+    /// How a design that some stages led to stands to the demands.
+    fn standing<'r>(
+        &self,
+        case: &Case,
+        stages: impl IntoIterator<Item = &'r StageResult>,
+    ) -> Standing {
+        let failed = stages.into_iter().any(|stage| stage.failure().is_some());
         let margins = self.margins(case);
-        margins.iter().map(Margin::shortfall).fold(0.0, f64::max)
+        let is_assessed = |margin: &&Margin| margin.verdict() != Verdict::NotAssessed;
+        let assessed = margins.iter().filter(is_assessed);
+        let shortfall = assessed.map(Margin::shortfall).fold(0.0, f64::max);
+        Standing {
+            shortfall: if failed { f64::INFINITY } else { shortfall },
+            not_assessed: margins.iter().filter(|m| !is_assessed(m)).count(),
+        }
     }
 
     fn joint_only(&self) -> Chosen {

@@ -201,6 +201,16 @@ impl Study {
         self.with(condition, index, Role::Constraint { bound }, None)
     }
 
+    /// As [`Study::demand`], without which other demands cannot be assessed.
+    #[must_use]
+    pub fn imply(self, condition: usize, index: Index, bound: f64) -> Self {
+        let mut study = self.demand(condition, index, bound);
+        if let Some(term) = study.terms.last_mut() {
+            term.implied = true;
+        }
+        study
+    }
+
     /// As [`Study::demand`], of some pieces of the index only.
     #[must_use]
     pub fn demand_of(
@@ -237,6 +247,7 @@ impl Study {
             index,
             role,
             only,
+            implied: false,
             wanted,
         });
         self
@@ -252,6 +263,9 @@ impl Study {
         for (i, term) in self.terms.iter().enumerate() {
             if let Some(role) = role(i, term) {
                 study = study.with(term.condition, term.index, role, term.only);
+                if let Some(last) = study.terms.last_mut() {
+                    last.implied = term.implied;
+                }
             }
         }
         study

@@ -27,6 +27,9 @@ pub struct Tasks<'a> {
     conditions: &'a [Condition],
 }
 
+/// Ratio to flange contact or slip up to which the linear model covers a curve.
+const WITHIN_MODEL: f64 = 1.0;
+
 /// Which pieces of an index a trade-off's parameters decide, so that it keeps the demand on them.
 enum Concern {
     None,
@@ -199,11 +202,35 @@ impl<'a> Tasks<'a> {
                 };
             }
         }
+        if trade_off == TradeOff::StabilityCurving {
+            study = self.within_model(study, case);
+        }
         Task {
             trade_off: Some(trade_off),
             goal,
             study,
         }
+    }
+
+    /// The study with the demand that the linear model covers the service curve, in every condition in
+    /// which it asks for forces or strokes there.
+    fn within_model(&self, mut study: Study, case: &Case) -> Study {
+        for condition in 0..study.conditions() {
+            let here = study
+                .terms()
+                .iter()
+                .filter(|term| term.condition == condition);
+            let mut asks = here.map(|term| term.index);
+            let asked = asks.any(Index::is_in_service_curve);
+            let service = study.in_condition(case, condition).service;
+            // The tightest curve without contact or slip is within the model without more.
+            let is_given = service.curve.is_some() || service.cant_deficiency() != 0.0;
+            let own = self.demands_in(condition).get(Index::CurveLimitRatio);
+            if asked && is_given && own.is_none_or(|own| own > WITHIN_MODEL) {
+                study = study.imply(condition, Index::CurveLimitRatio, WITHIN_MODEL);
+            }
+        }
+        study
     }
 
     /// Everything at once: the spec's own objective, or the sum of the trade-offs'.
@@ -245,7 +272,7 @@ impl<'a> Tasks<'a> {
         Task {
             trade_off: None,
             goal,
-            study,
+            study: self.within_model(study, case),
         }
     }
 
@@ -259,7 +286,7 @@ impl<'a> Tasks<'a> {
                 }
             }
         }
-        study
+        self.within_model(study, case)
     }
 }
 

@@ -7,7 +7,8 @@ use super::{
     vertical_modes::flexible_separations,
 };
 use crate::{
-    case::Case, closed_form::natural_frequencies as closed, units::Quantity, vehicle::Vehicle,
+    case::Case, closed_form::natural_frequencies as closed, index::MET, units::Quantity,
+    vehicle::Vehicle,
 };
 
 /// One constraint and how the design stands to it.
@@ -60,16 +61,13 @@ impl Check {
         } else {
             value - self.limit
         };
-        if excess <= ROUNDING * self.limit {
+        if excess <= MET * self.limit {
             Verdict::Ok
         } else {
             Verdict::Exceeded
         }
     }
 }
-
-/// A design that an optimiser put on a limit may miss it by this share.
-const ROUNDING: f64 = 1e-5;
 
 /// All checks that apply to an evaluated case.
 pub fn checks(case: &Case, evaluation: &Evaluation) -> Vec<Check> {

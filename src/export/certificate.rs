@@ -10,7 +10,7 @@ use super::{
 use crate::{
     design::{
         explain::{Explained, Price},
-        margin::Margin,
+        margin::{Margin, Verdict},
         outcome::DesignResult,
     },
     index::{Index, Scale, Sense},
@@ -183,7 +183,12 @@ pub(crate) fn margin_row(margin: &Margin, range: [f64; 2]) -> Vec<String> {
         si,
         us,
         share,
-        if margin.met() { "met" } else { "NOT MET" }.into(),
+        match margin.verdict() {
+            Verdict::Met => "met",
+            Verdict::NotMet => "NOT MET",
+            Verdict::NotAssessed => "not assessed",
+        }
+        .into(),
     ]
 }
 

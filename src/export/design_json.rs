@@ -10,7 +10,7 @@ use crate::{
     design::{
         explain::{Bound, Chosen, Explained, Price},
         form::form,
-        margin::Margin,
+        margin::{Margin, Verdict},
         outcome::{Delivered, DesignResult, Profile, StageResult},
         sensitivity::Sensitivity,
     },
@@ -107,6 +107,11 @@ fn margin(margin: &Margin) -> Value {
         "reached_si": margin.reached.as_ref().ok(),
         "failure": margin.reached.as_ref().err(),
         "met": margin.met(),
+        "verdict": match margin.verdict() {
+            Verdict::Met => "met",
+            Verdict::NotMet => "not-met",
+            Verdict::NotAssessed => "not-assessed",
+        },
     })
 }
 

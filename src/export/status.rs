@@ -2,6 +2,7 @@
 
 use crate::{
     design::{
+        margin::{Margin, Verdict},
         outcome::DesignResult,
         pareto::{Front, FrontPoint},
     },
@@ -65,8 +66,12 @@ pub fn of_run(result: &DesignResult) -> String {
     if let Some(failure) = result.failure() {
         return failure_code(failure);
     }
+    let assessed = |margin: &&Margin| margin.verdict() == Verdict::NotMet;
     if !result.met() {
-        return "infeasible".into();
+        return match result.unmet().find(assessed) {
+            Some(_) => "infeasible".into(),
+            None => "not-assessed".into(),
+        };
     }
     let delivered = result.delivered_stages().map(|s| s.explained.status);
     let worse = delivered.filter(|status| *status != Status::Optimal).last();

@@ -42,10 +42,25 @@ pub struct Term {
     pub role: Role,
     /// Pieces that count; `None`: all.
     pub only: Option<&'static [usize]>,
+    /// Whether it is a demand that the spec does not state, but without which others cannot be
+    /// assessed.
+    pub implied: bool,
     pub(super) wanted: Wanted,
 }
 
 impl Term {
+    /// Rank of a demand where not all can be met, the first to be met being 0: what the models
+    /// always cover, then the conditions under which they cover the rest, then the rest.
+    pub fn rank(&self) -> usize {
+        if self.implied {
+            1
+        } else if self.index.is_in_service_curve() {
+            2
+        } else {
+            0
+        }
+    }
+
     pub(super) fn is_speed_objective(&self) -> bool {
         self.index == Index::CriticalSpeed && matches!(self.role, Role::Objective { .. })
     }

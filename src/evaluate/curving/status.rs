@@ -1,7 +1,10 @@
 //! Whether the linear model covers a curve.
 
 use super::{Limit, first_exceedance};
-use crate::dynamics::curving::{CurvingModel, Side};
+use crate::{
+    dynamics::curving::{CurvingModel, Side},
+    index::MET,
+};
 
 /// Whether the linear steady-curving model covers a curve. It ends at flange contact and at slip,
 /// and needs load on every wheel.
@@ -20,9 +23,9 @@ pub enum CurveStatus {
     WheelLifted(Side),
 }
 
-/// Ratio up to which a curve at a limit counts as within the model: curves at a limit are found to
-/// 1e-12, and an optimiser leaves a millionth of a bound.
-pub const AT_LIMIT: f64 = 1.0 + 1e-6;
+/// Ratio up to which a curve at a limit counts as within the model: the tolerance within which any
+/// bound counts as kept.
+pub const AT_LIMIT: f64 = 1.0 + MET;
 
 impl CurveStatus {
     /// Status of a curve with ratios to the limits in the order of [`Limit::ALL`].
