@@ -96,6 +96,7 @@ fn every_right_spec_is_valid() {
 /// scale, names of tracks elsewhere in the file.
 const BEYOND_A_SCHEMA: [&str; 18] = [
     "angle-on-torque",
+    "condition-conicity-off-the-table",
     "conicity-off-the-table",
     "critical-speed-below-range",
     "critical-speed-out-of-range",

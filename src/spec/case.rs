@@ -41,7 +41,7 @@ pub(super) fn read(
         mistakes,
     );
     if let Some(value) = document.get(keys::CONICITY)
-        && let Some(conicity) = mistakes.collect(conicity(value, document))
+        && let Some(conicity) = mistakes.collect(conicity(value, &[document]))
     {
         case.wheel_rail.conicity = conicity;
     }
@@ -87,13 +87,14 @@ pub(super) fn track(
 
 const AIR_SPRING: &str = "suspension.secondary.air_spring.";
 
-/// λ: the report's table ends at 0.25, but with explicit coefficients nothing is read from it.
-fn conicity(value: &Value, document: &Document) -> Result<f64, Diagnostic> {
+/// λ: the report's table ends at 0.25, but where `documents` together give all coefficients nothing is
+/// read from it.
+pub(super) fn conicity(value: &Value, documents: &[&Document]) -> Result<f64, Diagnostic> {
     let read = |range| number(value, "conicity", Quantity::Dimensionless, range);
     let conicity = read(Range::Positive)?;
     let absent: Vec<&str> = keys::COEFFICIENTS
         .iter()
-        .filter(|key| document.get(key.path).is_none())
+        .filter(|key| documents.iter().all(|d| d.get(key.path).is_none()))
         .map(Key::name)
         .collect();
     if absent.is_empty() {

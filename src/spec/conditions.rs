@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use toml::de::DeValue;
 
+use super::case::conicity;
 use super::demands::demands;
 use super::diagnostic::{Collect, Diagnostic, word};
 use super::document::{Document, bad_name};
@@ -87,7 +88,11 @@ pub(super) fn read<'a>(
         };
         for key in keys::case() {
             if let Some(value) = inner.get(key.path) {
-                let read = number(value, key.name(), key.quantity, key.range);
+                let read = match key.path {
+                    // Coefficients that the condition does not give are those of the nominal case.
+                    keys::CONICITY => conicity(value, &[&inner, document]),
+                    _ => number(value, key.name(), key.quantity, key.range),
+                };
                 condition
                     .values
                     .extend(mistakes.collect(read).map(|si| (key.path, si)));

@@ -3,11 +3,12 @@
 use toml::de::DeValue;
 
 use super::situation::Situation;
+use crate::case::Case;
 use crate::index::Index;
 use crate::parameter::Parameter;
 use crate::spec::diagnostic::{Diagnostic, word};
 use crate::spec::document::Document;
-use crate::spec::keys;
+use crate::spec::keys::{self, Key};
 use crate::spec::{Freedom, Spec};
 
 type Doubts = Vec<Diagnostic>;
@@ -39,27 +40,24 @@ pub fn without_effect(
     }
 }
 
-/// Coefficients that the spec gives stay as they are, whatever the conicity.
+/// Coefficients that the spec gives stay as they are, whatever the conicity; those that a condition
+/// gives beside its conicity are meant for it.
 fn profiles(spec: &Spec, document: &Document, situations: &[Situation], doubts: &mut Doubts) {
-    let given = keys::COEFFICIENTS
+    let given: Vec<&Key<Case>> = keys::COEFFICIENTS
         .iter()
-        .filter(|key| document.get(key.path).is_some());
-    let given: Vec<&str> = given.map(|key| key.name()).collect();
-    if given.is_empty() {
-        return;
-    }
-    let all = given.len() == keys::COEFFICIENTS.len();
-    let what = if all {
-        "creep and contact geometry"
-    } else {
-        "some coefficients"
-    };
-    let mut doubt = |place| {
+        .filter(|key| document.get(key.path).is_some())
+        .collect();
+    let mut doubt = |place, kept: &[&str]| {
+        let what = match kept.len() {
+            0 => return,
+            n if n == keys::COEFFICIENTS.len() => "creep and contact geometry",
+            _ => "some coefficients",
+        };
         doubts.push(
             Diagnostic::at(
                 place,
                 format!("the conicity changes, but {what} do not follow it"),
-                format!("[wheel_rail] gives: {}", given.join(", ")),
+                format!("[wheel_rail] gives: {}", kept.join(", ")),
             )
             .help("leave them out to take each profile from Table 4.1.1".to_owned()),
         );
@@ -68,11 +66,16 @@ fn profiles(spec: &Spec, document: &Document, situations: &[Situation], doubts: 
     if matches!(open, Some(Freedom::Between(_) | Freedom::Choices(_)))
         && let Some(value) = document.get(Parameter::Conicity.path())
     {
-        doubt(value.span());
+        let kept: Vec<&str> = given.iter().map(|key| key.name()).collect();
+        doubt(value.span(), &kept);
     }
     for situation in situations.iter().filter(|s| s.condition.is_some()) {
         if let Some(place) = situation.place(&["wheel_rail.conicity"]) {
-            doubt(place);
+            let kept = given
+                .iter()
+                .filter(|key| situation.document.get(key.path).is_none());
+            let kept: Vec<&str> = kept.map(|key| key.name()).collect();
+            doubt(place, &kept);
         }
     }
 }
