@@ -112,16 +112,15 @@ pub struct AirSpring {
 }
 
 impl AirSpring {
-    /// Stiffness under slow motion, N/m, when the orifice carries no force.
+    /// Stiffness under a load that does not change, N/m: the orifice passes air and carries nothing,
+    /// so that bellows and reservoir are in series.
     ///
     /// ```math
-    /// k_0 + k_1 k_r / (k_1 + k_r)
+    /// K_direct + K_series K_reservoir / (K_series + K_reservoir)
     /// ```
-    ///
-    /// k_0 direct, k_1 series, k_r reservoir (Figure 3.4.5a).
     pub fn static_stiffness(&self) -> f64 {
-        let (k_1, k_r) = (self.series_stiffness, self.reservoir_stiffness);
-        self.direct_stiffness + k_1 * k_r / (k_1 + k_r)
+        let (series, reservoir) = (self.series_stiffness, self.reservoir_stiffness);
+        self.direct_stiffness + series * reservoir / (series + reservoir)
     }
 }
 

@@ -26,6 +26,7 @@ pub(super) fn doubts(spec: &Spec, document: &Document, situations: &[Situation])
         usual::unusual(situation, &mut doubts);
         bodies::strange_bodies(situation, &mut doubts);
         secondary::odd_secondary(situation, &spec.design, &mut doubts);
+        secondary::two_vertical_springs(situation, &mut doubts);
         demands::odd_demands(situation, &spec.design, &mut doubts);
     }
     design_space::odd_bounds(spec, document, &mut doubts);
