@@ -163,7 +163,7 @@ fn freedom(parameter: Parameter, value: &Value) -> Result<Freedom, Diagnostic> {
                 (None, Some((_, to)), ratio) => {
                     let names = Parameter::ALL.map(Parameter::name);
                     let to = Parameter::ALL[choice(to, "tied_to", &names)?];
-                    if to.quantity() != quantity || to.constant() == parameter.constant() {
+                    if !may_be_tied(parameter, to) {
                         return Err(Diagnostic::at(
                             value.span(),
                             format!("`{name}` cannot be tied to `{}`", to.name()),
@@ -190,23 +190,67 @@ fn freedom(parameter: Parameter, value: &Value) -> Result<Freedom, Diagnostic> {
     }
 }
 
-/// A parameter may be tied to one that is not tied itself.
+/// Whether two parameters are of one kind: a conicity is no damping ratio, though both are plain numbers.
+pub(super) fn may_be_tied(parameter: Parameter, to: Parameter) -> bool {
+    let is_conicity = |p| p == Parameter::Conicity;
+    to.quantity() == parameter.quantity()
+        && to.constant() != parameter.constant()
+        && is_conicity(to) == is_conicity(parameter)
+}
+
+/// The frame's frequency depends on the secondary springs (3.5-9), and so does K_pz where it follows from a
+/// frequency in `[design]`: these springs cannot be tied to what follows from them.
+fn follows_from(to: Parameter, parameter: Parameter, design: &DesignSpace) -> bool {
+    let by_frequency = design
+        .freedom(Parameter::PrimaryVerticalFrequency)
+        .is_some();
+    parameter.constant() == Parameter::SecondaryVerticalStiffness
+        && match to {
+            Parameter::PrimaryVerticalFrequency => !by_frequency,
+            Parameter::PrimaryVerticalStiffness => by_frequency,
+            _ => false,
+        }
+}
+
+/// A parameter may be tied to one that is not tied itself, by whichever name of its constant, and that does
+/// not follow from it.
 fn ties(document: &Document, design: &DesignSpace, mistakes: &mut Vec<Diagnostic>) {
     for (parameter, freedom) in &design.parameters {
         let Freedom::Tied { to, .. } = freedom else {
             continue;
         };
-        if matches!(design.freedom(*to), Some(Freedom::Tied { .. }))
+        let is_tied = |(p, freedom): &&(Parameter, Freedom)| {
+            p.constant() == to.constant() && matches!(freedom, Freedom::Tied { .. })
+        };
+        if let Some((other, _)) = design.parameters.iter().find(is_tied)
+            && let Some(value) = document.get(parameter.path())
+        {
+            let by = if other == to {
+                String::new()
+            } else {
+                format!(" as `{}`", other.name())
+            };
+            mistakes.push(Diagnostic::at(
+                value.span(),
+                format!(
+                    "`{}` is tied to `{}`, which is tied itself{by}",
+                    parameter.name(),
+                    to.name()
+                ),
+                "expected a parameter that is not tied",
+            ));
+        }
+        if follows_from(*to, *parameter, design)
             && let Some(value) = document.get(parameter.path())
         {
             mistakes.push(Diagnostic::at(
                 value.span(),
                 format!(
-                    "`{}` is tied to `{}`, which is tied itself",
+                    "`{}` is tied to `{}`, which follows from it",
                     parameter.name(),
                     to.name()
                 ),
-                "expected a parameter that is not tied",
+                "expected a parameter that does not depend on the secondary springs",
             ));
         }
     }

@@ -8,7 +8,11 @@ mod values;
 use serde_json::{Map, Value, json};
 
 use super::keys::{self, ENTRIES, Need, TABLES};
-use super::{FRONT_POINTS, design::ORDERS, tracks};
+use super::{
+    FRONT_POINTS,
+    design::{ORDERS, may_be_tied},
+    tracks,
+};
 use crate::index::{Index, Sense};
 use crate::parameter::Parameter;
 use crate::track::Track;
@@ -146,7 +150,7 @@ fn freedom(parameter: Parameter) -> Value {
     let (quantity, range) = (parameter.quantity(), parameter.range());
     let ties: Vec<&str> = Parameter::ALL
         .into_iter()
-        .filter(|to| to.quantity() == quantity && to.constant() != parameter.constant())
+        .filter(|to| may_be_tied(parameter, *to))
         .map(Parameter::name)
         .collect();
     let mut forms = vec![
