@@ -109,7 +109,6 @@ const BEYOND_A_SCHEMA: [&str; 18] = [
     "stroke-in-no-curve",
     "trucks-beyond-carbody",
     "trucks-overlap",
-    "two-values",
     "unknown-track",
     "wavenumber-in-cycles",
     "wheels-overlap",

@@ -26,7 +26,6 @@ pub fn contradictions(
     }
     if let Some(nominal) = situations.first() {
         front_bounds(nominal, &front.bounds, mistakes);
-        two_values(nominal, design, mistakes);
         frame_frequency(nominal, design, mistakes);
     }
 }
@@ -166,40 +165,6 @@ fn front_bounds(nominal: &Situation, bounds: &Demands, mistakes: &mut Mistakes) 
         && let Some(place) = nominal.place(&[keys::FRONT_BOUNDS, SPEED_RANGE])
     {
         mistakes.push(outside(place, range, ""));
-    }
-}
-
-/// A constant fixed in `[design]` and given another value in the vehicle.
-fn two_values(nominal: &Situation, design: &DesignSpace, mistakes: &mut Mistakes) {
-    for (parameter, freedom) in &design.parameters {
-        let Freedom::Fixed(fixed) = freedom else {
-            continue;
-        };
-        let Some(key) = keys::of_parameter(*parameter) else {
-            continue;
-        };
-        let given = parameter.get(&nominal.case);
-        // The same value in another unit is the same to rounding.
-        if (given / fixed - 1.0).abs() > 1e-6
-            && nominal.place(&[key.path]).is_some()
-            && let Some(place) = nominal.place(&[parameter.path()])
-        {
-            let quantity = parameter.quantity();
-            mistakes.push(
-                Diagnostic::at(
-                    place,
-                    format!(
-                        "`{}` is {} here and {} by `{}`",
-                        parameter.name(),
-                        shown(*fixed, quantity),
-                        shown(given, quantity),
-                        key.path
-                    ),
-                    "expected one value, or bounds between which to choose",
-                )
-                .help("leave it out of [design] to keep the vehicle's own".to_owned()),
-            );
-        }
     }
 }
 

@@ -1,6 +1,9 @@
-//! Bounds in `[design]` that are hardly meant.
+//! Bounds and values in `[design]` that are hardly meant.
+
+use std::ops::Range;
 
 use super::situation::shown;
+use crate::parameter::Parameter;
 use crate::spec::diagnostic::Diagnostic;
 use crate::spec::document::Document;
 use crate::spec::{Freedom, Spec, keys};
@@ -10,14 +13,22 @@ const WIDEST: f64 = 1e4;
 /// Share by which the present value may miss its bounds: published constants are rounded.
 const ROUNDING: f64 = 0.1;
 
-/// Doubts about bounds.
-pub fn odd_bounds(spec: &Spec, document: &Document, doubts: &mut Vec<Diagnostic>) {
+/// Relative difference between a value and the same value in another unit.
+const SAME: f64 = 1e-6;
+
+/// Doubts about bounds and values.
+pub fn odd_freedoms(spec: &Spec, document: &Document, doubts: &mut Vec<Diagnostic>) {
     for (parameter, freedom) in &spec.design.parameters {
-        let Freedom::Between(bounds) = freedom else {
-            continue;
-        };
         let Some(value) = document.get(parameter.path()) else {
             continue;
+        };
+        let bounds = match freedom {
+            Freedom::Between(bounds) => bounds,
+            Freedom::Fixed(fixed) => {
+                second_value(spec, document, (*parameter, *fixed), value.span(), doubts);
+                continue;
+            }
+            Freedom::Choices(_) | Freedom::Tied { .. } => continue,
         };
         let (name, quantity) = (parameter.name(), parameter.quantity());
         let ratio = bounds.upper / bounds.lower;
@@ -49,5 +60,35 @@ pub fn odd_bounds(spec: &Spec, document: &Document, doubts: &mut Vec<Diagnostic>
                 .help(parameter.relation().map(|r| format!("{r}: check both"))),
             );
         }
+    }
+}
+
+/// A constant set in `[design]` and given another value in the vehicle: the design takes the one,
+/// the vehicle as given the other.
+fn second_value(
+    spec: &Spec,
+    document: &Document,
+    (parameter, fixed): (Parameter, f64),
+    place: Range<usize>,
+    doubts: &mut Vec<Diagnostic>,
+) {
+    let Some(key) = keys::of_parameter(parameter) else {
+        return;
+    };
+    let given = parameter.get(&spec.case);
+    if document.get(key.path).is_some() && (given / fixed - 1.0).abs() > SAME {
+        let [fixed, given] = [fixed, given].map(|si| shown(si, parameter.quantity()));
+        doubts.push(
+            Diagnostic::at(
+                place,
+                format!(
+                    "`{}` is {fixed} in the design, {given} by `{}`",
+                    parameter.name(),
+                    key.path
+                ),
+                "the design takes this value, the vehicle as given keeps its own",
+            )
+            .help("`bogie evaluate` shows the vehicle as given".to_owned()),
+        );
     }
 }

@@ -29,7 +29,7 @@ pub(super) fn doubts(spec: &Spec, document: &Document, situations: &[Situation])
         secondary::two_vertical_springs(situation, &mut doubts);
         demands::odd_demands(situation, &spec.design, &mut doubts);
     }
-    design_space::odd_bounds(spec, document, &mut doubts);
+    design_space::odd_freedoms(spec, document, &mut doubts);
     effects::without_effect(spec, document, situations, &mut doubts);
     Doubts::new(doubts)
 }

@@ -70,7 +70,7 @@ pub static TABLES: &[Table] = &[
     table("tracks", "Tracks of one's own, each under its name."),
     table(
         "design",
-        "What may vary, and how. A parameter takes bounds, a value, or a tie to another; what is not listed stays as the vehicle has it.",
+        "What may vary, and how. A parameter takes bounds, a value that it has in every design, or a tie to another; what is not listed stays as the vehicle has it.",
     ),
     table(
         "objective",

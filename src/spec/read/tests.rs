@@ -314,6 +314,62 @@ fn own_coefficients_lift_the_bound_of_the_conicity() {
     assert!(Spec::parse(&source.replace("roll_coefficient = 0.1\n", "")).is_err());
 }
 
+/// A condition takes what it does not give from `[wheel_rail]`.
+#[test]
+fn coefficients_of_a_condition_lift_the_bound_of_its_conicity() {
+    let creep = [
+        "lateral_creep = \"9 MN\"",
+        "lateral_spin_creep = \"20 kN m\"",
+        "spin_creep = \"60 N m^2\"",
+        "longitudinal_creep = \"10 MN\"",
+    ];
+    let geometry = [
+        "roll_coefficient = 0.1",
+        "contact_angle = \"5 deg\"",
+        "contact_angle_difference = 20",
+    ];
+    let source = |nominal: &[&str], worn: &[&str]| {
+        format!(
+            "{BASE}[wheel_rail]\n{}\n[conditions.worn.wheel_rail]\nconicity = 0.35\n{}\n",
+            nominal.join("\n"),
+            worn.join("\n")
+        )
+    };
+    let all = [&creep[..], &geometry].concat();
+    // One doubt where coefficients meant for the nominal profile stay.
+    for (nominal, worn, doubts) in [
+        (&[][..], &all[..], 0),
+        (&creep, &geometry, 1),
+        (&all, &[], 1),
+        (&all, &all, 0),
+    ] {
+        let spec = parse(&source(nominal, worn));
+        let case = spec.conditions[0].apply(&spec.case);
+        assert!(close(case.wheel_rail.conicity, 0.35));
+        assert_eq!(spec.doubts.iter().count(), doubts, "{nominal:?} {worn:?}");
+    }
+    assert!(Spec::parse(&source(&creep[1..], &geometry)).is_err());
+}
+
+/// What `[design]` sets is for the design; the vehicle as given keeps its own.
+#[test]
+fn a_plain_value_in_the_design_stands_beside_the_vehicles_own() {
+    let source = "[suspension.primary]\nlateral_stiffness = \"7.3 MN/m\"\n[design]\n";
+    let of = |value: &str| {
+        let value = format!("primary_lateral_stiffness = \"{value}\"\n");
+        parse(&format!("{BASE}{source}{value}"))
+    };
+    let spec = of("5 MN/m");
+    let freedom = spec.design.freedom(Parameter::PrimaryLateralStiffness);
+    assert_eq!(freedom, Some(&Freedom::Fixed(5e6)));
+    assert!(close(
+        Parameter::PrimaryLateralStiffness.get(&spec.case),
+        7.3e6
+    ));
+    assert_eq!(spec.doubts.iter().count(), 1);
+    assert_eq!(of("7300 N/mm").doubts.iter().count(), 0);
+}
+
 #[test]
 fn all_mistakes_are_found_in_the_order_of_lines() {
     let source = "[limits]\nprimary_lateral_stroke = 1\n[vehicle]\nbase = \"prototype\"\n\
