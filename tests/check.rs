@@ -71,6 +71,30 @@ fn doubts_stand_in_every_result() {
     assert_eq!(answer["warnings"][0]["line"], 8);
 }
 
+/// Whatever the command, its JSON says which program wrote it and which version its keys have.
+#[test]
+fn every_result_names_program_and_schema_version() {
+    let spec = "problems/conicity-0.10.toml";
+    for args in [
+        &["evaluate", spec][..],
+        &["modes", spec],
+        &["curve", spec],
+        &["psd", spec, "--points", "5"],
+        &["check", spec],
+        &["check", "problems/invalid/several-mistakes.toml"],
+        &["optimize", spec, "--budget", "5"],
+        &["pareto", spec, "--budget", "5"],
+        &["sensitivity", spec, "--samples", "2"],
+        &["chart", "--list"],
+        &["chart", spec, "3.4.3", "--files", "json"],
+    ] {
+        let (_, result, _) = json(&[args, &["--format", "json"]].concat());
+        let program = concat!("bogie ", env!("CARGO_PKG_VERSION"));
+        assert_eq!(result["program"], program, "{args:?}");
+        assert_eq!(result["schema_version"], 1, "{args:?}");
+    }
+}
+
 #[test]
 fn the_schema_is_printed() {
     let (code, schema, _) = json(&["schema"]);

@@ -7,6 +7,7 @@ use bogie::chart::{
     book::{self, BOOK, Entry, Workbook},
     table,
 };
+use bogie::export::origin::sign;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -96,7 +97,7 @@ fn write(
     if format == Format::Json {
         let result =
             json!({ "name": name, "folder": folder.display().to_string(), "charts": written });
-        output::print(serde_json::to_string_pretty(&result).map_err(failed)?)?;
+        output::print(signed(result)?)?;
     }
     Ok(Done::Complete)
 }
@@ -130,7 +131,7 @@ fn describe(entry: &Entry) -> Value {
 fn list(format: Format) -> Result<String, Failure> {
     if format == Format::Json {
         let charts: Vec<Value> = BOOK.iter().map(describe).collect();
-        return serde_json::to_string_pretty(&json!({ "charts": charts })).map_err(failed);
+        return signed(json!({ "charts": charts }));
     }
     let mut text =
         String::from("figure          name                                what it shows\n");
@@ -147,6 +148,14 @@ fn list(format: Format) -> Result<String, Failure> {
         "\ndraw them with `bogie chart SPEC.toml`, by figure or name, or all with --all\n",
     );
     Ok(text)
+}
+
+/// JSON with the program that made it.
+fn signed(mut result: Value) -> Result<String, Failure> {
+    if let Value::Object(object) = &mut result {
+        sign(object);
+    }
+    serde_json::to_string_pretty(&result).map_err(failed)
 }
 
 fn draw(entry: &Entry, figure: &Figure, wanted: &[ChartFile]) -> Result<Vec<File>, Failure> {
@@ -175,8 +184,7 @@ fn draw(entry: &Entry, figure: &Figure, wanted: &[ChartFile]) -> Result<Vec<File
                 }
             }
             ChartFile::Json => {
-                let text = serde_json::to_string_pretty(&drawing.json()).map_err(failed)?;
-                add(".json", (text + "\n").into_bytes());
+                add(".json", (signed(drawing.json())? + "\n").into_bytes());
             }
         }
     }

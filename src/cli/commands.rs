@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use bogie::{
     evaluate::{Evaluation, ride::NoRide, warnings::warnings},
-    export::{self, curve::Curving, evaluation_json, modes, psd::Spectra},
+    export::{self, curve::Curving, evaluation_json, modes, origin::sign, psd::Spectra},
     spec::{STARTER, Spec, schema},
     track::{MAX_DEGREE, SUPERELEVATION_BASE},
     units::Quantity,
@@ -16,9 +16,6 @@ use super::{
     arguments::{Check, Curve, Format, Init, Modes, Psd, Run},
     input, output,
 };
-
-/// Program and version, in results and journals.
-pub(super) const PROGRAM: &str = concat!("bogie ", env!("CARGO_PKG_VERSION"));
 
 /// A curve of over 1700 km radius is a straight.
 const LEAST_DEGREE: f64 = 0.001;
@@ -187,7 +184,7 @@ pub(super) fn together(doubts: &[String], warnings: &[String]) -> Vec<String> {
 /// A result with what it comes from and what is doubtful in its spec.
 pub(super) fn with_origin(mut result: Value, digest: &str, warnings: &[String]) -> Value {
     if let Value::Object(object) = &mut result {
-        object.insert("program".into(), json!(PROGRAM));
+        sign(object);
         object.insert("spec_sha256".into(), json!(digest));
         object.insert("warnings".into(), json!(warnings));
     }

@@ -9,7 +9,7 @@ use bogie::{
         sensitivity::{self, Factors, Settings, Watch, analysis::indices_of},
     },
     evaluate::warnings::warnings,
-    export::{self, design_json, design_text, table::Table},
+    export::{self, design_json, design_text, origin::PROGRAM, table::Table},
     index::Index,
     optimize::{
         archive::Archive,
@@ -21,7 +21,7 @@ use bogie::{
 use super::{
     Done, Failure,
     arguments::{Method, Optimize, Pareto, Search, Sensitivity, TableFormat},
-    commands::{PROGRAM, deliver, failed, together, with_origin, wrong},
+    commands::{deliver, failed, together, with_origin, wrong},
     input, interrupt, output,
     progress::Line,
     report,

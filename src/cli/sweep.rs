@@ -9,7 +9,7 @@ use std::{
 
 use bogie::{
     design::{procedure::DesignError, sensitivity::analysis::indices_of, sweep},
-    export,
+    export::{self, origin::PROGRAM},
     optimize::{
         archive::Progress,
         journal::{Header, Journal},
@@ -20,7 +20,6 @@ use rayon::prelude::*;
 use super::{
     Done, Failure,
     arguments::{Lines, Sweep},
-    commands::PROGRAM,
     design, input, interrupt, output,
     progress::Line,
 };

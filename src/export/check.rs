@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use super::origin::{PROGRAM, SCHEMA_VERSION};
 use crate::spec::{Diagnostic, Diagnostics, Spec};
 
 /// The verdict on a spec without mistakes.
@@ -30,6 +31,8 @@ pub fn json(name: &str, source: &str, read: &Result<Spec, Diagnostics>) -> Value
         Err(mistakes) => (mistakes.iter().map(entry).collect(), Vec::new()),
     };
     json!({
+        "program": PROGRAM,
+        "schema_version": SCHEMA_VERSION,
         "name": name,
         "valid": read.is_ok(),
         "mistakes": mistakes,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value, json};
 
-use super::{evaluation_json, status};
+use super::{evaluation_json, origin::sign, status};
 use crate::{
     design::{
         explain::{Bound, Chosen, Explained, Price},
@@ -29,11 +29,8 @@ pub fn design(
     warnings: &[String],
 ) -> Value {
     let mut object = Map::new();
+    sign(&mut object);
     let mut insert = |key: &str, value: Value| object.insert(key.into(), value);
-    insert(
-        "program",
-        json!(concat!("bogie ", env!("CARGO_PKG_VERSION"))),
-    );
     insert("name", json!(name));
     insert("spec_sha256", json!(digest));
     insert("seed", json!(spec.design.seed));

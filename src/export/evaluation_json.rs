@@ -3,6 +3,7 @@
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
+use super::origin::sign;
 use crate::{
     case::Case,
     evaluate::{
@@ -21,10 +22,7 @@ use crate::{
 /// Everything that `bogie evaluate --format json` writes.
 pub fn evaluation(name: &str, case: &Case, evaluation: &Evaluation, warnings: &[String]) -> Value {
     let mut object = Map::new();
-    object.insert(
-        "program".into(),
-        json!(concat!("bogie ", env!("CARGO_PKG_VERSION"))),
-    );
+    sign(&mut object);
     object.insert("name".into(), json!(name));
     object.insert("speed_m_per_s".into(), json!(case.service.speed));
     object.insert("track".into(), json!(case.service.track.name));

@@ -11,6 +11,7 @@ pub(crate) mod evaluation_text;
 pub mod file;
 pub mod modes;
 pub mod number;
+pub mod origin;
 pub mod pareto;
 pub mod psd;
 pub mod sensitivity;

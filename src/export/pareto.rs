@@ -2,7 +2,14 @@
 
 use serde_json::{Value, json};
 
-use super::{design_json::failures_of, number::significant, sheet::Sheet, status, table::Table};
+use super::{
+    design_json::failures_of,
+    number::significant,
+    origin::{PROGRAM, SCHEMA_VERSION},
+    sheet::Sheet,
+    status,
+    table::Table,
+};
 use crate::{
     design::pareto::{Front, FrontPoint},
     index::Index,
@@ -24,7 +31,7 @@ fn price(point: &FrontPoint, index: Index) -> Option<f64> {
 /// names.
 pub fn table(name: &str, front: &Front, digest: &str) -> Table {
     let mut table = Table::new();
-    table.metadata("program", concat!("bogie ", env!("CARGO_PKG_VERSION")));
+    table.metadata("program", PROGRAM);
     table.metadata("name", name);
     table.metadata("spec_sha256", digest);
     let points = &front.points;
@@ -63,7 +70,8 @@ pub fn table(name: &str, front: &Front, digest: &str) -> Table {
 /// Everything that `bogie pareto --format json` writes.
 pub fn json(name: &str, front: &Front, spec: &Spec, digest: &str) -> Value {
     json!({
-        "program": concat!("bogie ", env!("CARGO_PKG_VERSION")),
+        "program": PROGRAM,
+        "schema_version": SCHEMA_VERSION,
         "name": name,
         "spec_sha256": digest,
         "seed": spec.design.seed,

@@ -4,6 +4,7 @@ use serde_json::{Map, Value, json};
 
 use crate::{
     design::sensitivity::{Effects, Factor, IndexSensitivity, Method, Sensitivity, morris},
+    export::origin::sign,
     index::{Index, Scale},
     optimize::problem,
 };
@@ -12,11 +13,8 @@ use crate::{
 pub fn json(name: &str, sensitivity: &Sensitivity) -> Value {
     let settings = &sensitivity.settings;
     let mut object = Map::new();
+    sign(&mut object);
     let mut put = |key: &str, value: Value| object.insert(key.into(), value);
-    put(
-        "program",
-        json!(concat!("bogie ", env!("CARGO_PKG_VERSION"))),
-    );
     put("name", json!(name));
     match settings.method {
         Method::Sobol { rows } => {
