@@ -251,6 +251,42 @@ fn wrong_calls_exit_with_2() {
     }
 }
 
+/// Every command's help ends with the same exit codes.
+#[test]
+fn every_help_states_the_exit_codes() {
+    let help = |args: &[&str]| {
+        let (code, stdout, _) = output(&[args, &["--help"]].concat());
+        assert_eq!(code, 0);
+        let at = stdout.find("Exit codes:").expect("exit codes");
+        (stdout[at..].to_owned(), stdout)
+    };
+    let (codes, whole) = help(&[]);
+    for code in [
+        "0  done",
+        "1  a failure",
+        "2  a wrong call",
+        "3  requirements",
+        "4  ended early",
+    ] {
+        assert!(codes.contains(&format!("\n  {code}")), "{codes}");
+    }
+    let commands = whole
+        .lines()
+        .skip_while(|line| *line != "Commands:")
+        .skip(1);
+    // Descriptions that take a second line are set further in.
+    let names: Vec<&str> = commands
+        .take_while(|line| !line.is_empty())
+        .filter(|line| !line.starts_with("   "))
+        .filter_map(|line| line.split_whitespace().next())
+        .filter(|name| *name != "help")
+        .collect();
+    assert_eq!(names.len(), 13, "{names:?}");
+    for name in names {
+        assert_eq!(help(&[name]).0, codes, "{name}");
+    }
+}
+
 /// Numbers out of range are answered with the range.
 #[test]
 fn options_out_of_range() {

@@ -145,8 +145,7 @@ fn a_budget_is_kept_exactly_and_a_resumed_run_ends_where_an_uninterrupted_one_do
         assert_eq!(cut["evaluations"], budget, "{}", stderr(&output));
         let stopped = cut["stopped"].as_str().unwrap();
         assert!(stopped.contains("budget"), "{stopped}");
-        let met = cut["requirements_met"].as_bool().unwrap();
-        assert_eq!(output.status.code(), Some(if met { 0 } else { 3 }));
+        assert_eq!(output.status.code(), Some(4));
         let journal = runs.journal("optimize", &out);
         assert_eq!(count_lines(&journal), budget + 1);
         // What was measured is what the whole run measured first.
@@ -175,7 +174,7 @@ fn a_run_cut_short_of_its_requirements_says_so() {
         "{QUICK}[requirements]\nvertical_acceleration = \"0.01 m/s^2\"\n"
     ));
     let output = runs.run("optimize", "cut", &["--budget", "25"]);
-    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     let cut = runs.json("optimize", "cut");
     assert_eq!(cut["evaluations"], 25);
     assert_eq!(cut["requirements_met"], false);
@@ -198,12 +197,13 @@ fn a_front_that_was_killed_goes_on_to_the_same_bytes() {
     }
     // Cut by a budget before the first point is done, it has none.
     let output = runs.run("pareto", "early", &["--budget", "10"]);
-    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     let early = runs.json("pareto", "early");
     assert_eq!(early["evaluations"], 10);
     assert_eq!(early["points"], Value::Array(Vec::new()));
     // Cut in between, it holds those that are done.
-    runs.run("pareto", "cut", &["--budget", "150"]);
+    let output = runs.run("pareto", "cut", &["--budget", "150"]);
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     let cut = runs.json("pareto", "cut");
     assert_eq!(cut["evaluations"], 150);
     assert!(cut["stopped"].as_str().unwrap().contains("budget"));
@@ -233,8 +233,7 @@ fn an_interrupted_search_ends_with_the_best_so_far() {
     let output = interrupt(runs.until("optimize", "stopped", 40));
     let stopped = runs.json("optimize", "stopped");
     assert_eq!(stopped["stopped"], "interrupted", "{}", stderr(&output));
-    let met = stopped["requirements_met"].as_bool().unwrap();
-    assert_eq!(output.status.code(), Some(if met { 0 } else { 3 }));
+    assert_eq!(output.status.code(), Some(4));
     let made = stopped["evaluations"].as_u64().unwrap();
     assert!((40..500).contains(&made), "{made}");
     assert_eq!(
@@ -250,11 +249,7 @@ fn an_interrupted_front_goes_on_to_the_same_result() {
     let runs = Runs::new(QUICK);
     runs.complete("pareto", "whole", &[]);
     let output = interrupt(runs.until("pareto", "stopped", 60));
-    assert!(
-        matches!(output.status.code(), Some(0 | 3)),
-        "{}",
-        stderr(&output)
-    );
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     runs.complete("pareto", "stopped", &["--resume"]);
     let [a, b] = ["stopped", "whole"].map(|out| runs.file(out, "pareto.json"));
     assert!(a == b, "the results differ");
@@ -265,6 +260,22 @@ fn an_interrupted_front_goes_on_to_the_same_result() {
         lines
     });
     assert_eq!(a, b);
+}
+
+/// A sweep that is cut off leaves its lines in a file that does not have the name of a whole one.
+#[test]
+fn an_interrupted_sweep_says_so() {
+    let runs = Runs::new(QUICK);
+    let partial = runs.out("stopped").join("sweep.json.partial");
+    let mut call = runs.command("sweep", "stopped", &["--designs", "1000000"]);
+    let mut child = call.stderr(Stdio::piped()).spawn().unwrap();
+    while fs::metadata(&partial).map_or(0, |file| file.len()) == 0 {
+        assert_eq!(child.try_wait().unwrap(), None, "over before a line");
+        sleep(Duration::from_millis(1));
+    }
+    let output = interrupt(child);
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
+    assert!(partial.exists() && !runs.out("stopped").join("sweep.json").exists());
 }
 
 #[test]

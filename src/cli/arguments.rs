@@ -2,7 +2,16 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+
+/// What the exit codes mean, at the end of every help.
+pub const EXIT_CODES: &str = "\
+Exit codes:
+  0  done
+  1  a failure: a file that cannot be written, or no design with a result
+  2  a wrong call or an invalid spec
+  3  requirements or limits not met or not assessed; the result is the best compromise
+  4  ended early, by --budget or Ctrl-C; the result is the best so far, met or not";
 
 /// Early design of rail vehicle suspensions: ride, stability and curving.
 #[derive(Debug, Parser)]
@@ -11,6 +20,17 @@ pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+}
+
+impl Arguments {
+    /// Reads the call; a wrong one ends the program with exit code 2.
+    pub fn read() -> Self {
+        let command = Self::command()
+            .after_help(EXIT_CODES)
+            .mut_subcommands(|command| command.after_help(EXIT_CODES));
+        let matches = command.get_matches();
+        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    }
 }
 
 /// What can be done with a spec.

@@ -78,11 +78,8 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
         let (matters, front) = (Some(&matters), front.as_ref());
         report::optimized(&named, &result, matters, front, call, page)?;
     }
-    Ok(if result.met() {
-        Done::Complete
-    } else {
-        Done::Unmet
-    })
+    let early = archive.stopped().is_some() || matters.interrupted();
+    Ok(Done::of(early, result.met()))
 }
 
 pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
@@ -141,11 +138,7 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
         },
         || export::pareto::table(&name, &front, &digest),
     )?;
-    Ok(if front.points.is_empty() {
-        Done::Unmet
-    } else {
-        Done::Complete
-    })
+    Ok(Done::of(front.stopped.is_some(), !front.points.is_empty()))
 }
 
 pub(super) fn indices(names: &[String]) -> Result<Vec<Index>, Failure> {
@@ -219,7 +212,7 @@ pub fn sensitivity(call: &Sensitivity) -> Result<Done, Failure> {
         || with_origin(export::sensitivity::json(&name, &found), &digest, &warnings),
         || export::sensitivity::table(&found),
     )?;
-    Ok(Done::Complete)
+    Ok(Done::of(found.interrupted(), true))
 }
 
 fn deliver_table(

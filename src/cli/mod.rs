@@ -1,8 +1,7 @@
 //! Command line: reads a spec, runs a command, writes its result.
 //!
-//! Results go to standard output or under `--out`, everything else to standard error. Exit codes:
-//! 0 done, 1 a failure, 2 a wrong call or an invalid spec, 3 requirements that cannot all be met
-//! (the result then holds the best compromise).
+//! Results go to standard output or under `--out`, everything else to standard error. The exit codes are
+//! those of [`arguments::EXIT_CODES`].
 
 mod arguments;
 mod chart;
@@ -17,8 +16,6 @@ mod sweep;
 
 use std::process::ExitCode;
 
-use clap::Parser;
-
 use arguments::{Arguments, Command};
 
 /// Why a command ends without a result.
@@ -28,6 +25,8 @@ enum Failure {
     Invalid(String),
     /// Something else went wrong.
     Failed(String),
+    /// The run was ended before there was anything to show.
+    Early(String),
     /// The reader of a result that comes in parts went away.
     Closed,
 }
@@ -39,12 +38,46 @@ enum Done {
     Complete,
     /// Requirements are not met.
     Unmet,
+    /// The budget was spent or the run interrupted: the result is the best so far.
+    Early,
+}
+
+impl Done {
+    /// Of a run that may have ended early and may meet what is asked: what might have become of a run
+    /// that ended early is not known.
+    fn of(early: bool, met: bool) -> Self {
+        match (early, met) {
+            (true, _) => Self::Early,
+            (false, true) => Self::Complete,
+            (false, false) => Self::Unmet,
+        }
+    }
 }
 
 /// Runs the command that was called.
 pub fn run() -> ExitCode {
-    let arguments = Arguments::parse();
-    let result = match &arguments.command {
+    let arguments = Arguments::read();
+    match command(&arguments.command) {
+        Ok(Done::Complete) | Err(Failure::Closed) => ExitCode::SUCCESS,
+        Ok(Done::Unmet) => ExitCode::from(3),
+        Ok(Done::Early) => ExitCode::from(4),
+        Err(Failure::Failed(text)) => {
+            output::say(format_args!("error: {text}"));
+            ExitCode::from(1)
+        }
+        Err(Failure::Early(text)) => {
+            output::say(format_args!("error: {text}"));
+            ExitCode::from(4)
+        }
+        Err(Failure::Invalid(text)) => {
+            output::say(text.trim_end());
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn command(command: &Command) -> Result<Done, Failure> {
+    match command {
         Command::Optimize(call) => design::optimize(call),
         Command::Pareto(call) => design::pareto(call),
         Command::Sensitivity(call) => design::sensitivity(call),
@@ -58,17 +91,5 @@ pub fn run() -> ExitCode {
         Command::Check(call) => commands::check(call),
         Command::Schema => commands::schema(),
         Command::Init(call) => commands::init(call),
-    };
-    match result {
-        Ok(Done::Complete) | Err(Failure::Closed) => ExitCode::SUCCESS,
-        Ok(Done::Unmet) => ExitCode::from(3),
-        Err(Failure::Failed(text)) => {
-            output::say(format_args!("error: {text}"));
-            ExitCode::from(1)
-        }
-        Err(Failure::Invalid(text)) => {
-            output::say(text.trim_end());
-            ExitCode::from(2)
-        }
     }
 }

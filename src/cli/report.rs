@@ -43,7 +43,7 @@ pub fn report(call: &arguments::Report) -> Result<Done, Failure> {
         command,
     };
     made.write(&call.page)?;
-    Ok(Done::Complete)
+    Ok(Done::of(archive.stopped().is_some(), true))
 }
 
 /// The page of an optimisation.

@@ -64,7 +64,7 @@ pub fn sweep(call: &Sweep) -> Result<Done, Failure> {
             "ended early: interrupted after {done} designs"
         ));
     }
-    Ok(Done::Complete)
+    Ok(Done::of(!whole, true))
 }
 
 /// Designs as lines; the head line before them or not.
