@@ -1,6 +1,6 @@
 //! The commands and their options.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
@@ -62,6 +62,37 @@ pub enum Command {
     Schema,
     /// Write a commented spec to start from
     Init(Init),
+}
+
+impl Command {
+    /// The spec that it reads; none: it reads none.
+    pub fn spec(&self) -> Option<&Path> {
+        let source = match self {
+            Self::Optimize(call) => &call.run.source,
+            Self::Pareto(call) => &call.source,
+            Self::Evaluate(call) => &call.source,
+            Self::Sensitivity(call) => &call.source,
+            Self::Sweep(call) => &call.source,
+            Self::Report(call) => &call.source,
+            Self::Modes(call) => &call.run.source,
+            Self::Curve(call) => &call.run.source,
+            Self::Psd(call) => &call.run.source,
+            Self::Check(call) => &call.source,
+            Self::Chart(call) => return call.spec.as_deref(),
+            Self::Schema | Self::Init(_) => return None,
+        };
+        Some(&source.spec)
+    }
+
+    /// The folder in which it keeps a journal; none: it keeps none.
+    pub fn journal(&self) -> Option<&Path> {
+        match self {
+            Self::Optimize(call) => call.run.out.as_deref(),
+            Self::Pareto(call) => call.out.as_deref(),
+            Self::Sweep(call) => call.out.as_deref(),
+            _ => None,
+        }
+    }
 }
 
 /// Where the spec comes from.

@@ -7,6 +7,7 @@ mod arguments;
 mod chart;
 mod commands;
 mod design;
+mod fault;
 mod input;
 mod interrupt;
 mod output;
@@ -54,10 +55,13 @@ impl Done {
     }
 }
 
-/// Runs the command that was called.
+/// Runs the command that was called. A fault of the program ends it with a message, too.
 pub fn run() -> ExitCode {
     let arguments = Arguments::read();
-    match command(&arguments.command) {
+    fault::keep_silent();
+    let result = fault::catch(|| command(&arguments.command))
+        .unwrap_or_else(|fault| Err(Failure::Failed(fault.message(&arguments.command))));
+    match result {
         Ok(Done::Complete) | Err(Failure::Closed) => ExitCode::SUCCESS,
         Ok(Done::Unmet) => ExitCode::from(3),
         Ok(Done::Early) => ExitCode::from(4),
