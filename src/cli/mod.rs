@@ -26,8 +26,6 @@ enum Failure {
     Invalid(String),
     /// Something else went wrong.
     Failed(String),
-    /// The run was ended before there was anything to show.
-    Early(String),
     /// The reader of a result that comes in parts went away.
     Closed,
 }
@@ -68,10 +66,6 @@ pub fn run() -> ExitCode {
         Err(Failure::Failed(text)) => {
             output::say(format_args!("error: {text}"));
             ExitCode::from(1)
-        }
-        Err(Failure::Early(text)) => {
-            output::say(format_args!("error: {text}"));
-            ExitCode::from(4)
         }
         Err(Failure::Invalid(text)) => {
             output::say(text.trim_end());

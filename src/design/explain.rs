@@ -57,9 +57,9 @@ pub struct Price {
     pub multiplier: f64,
     /// Change of the objective, scaled, per SI unit of the bound.
     pub per_unit: f64,
-    /// Relative change of the index at the bound per relative change of each variable; infinite or
-    /// undefined where the bound is zero or the index jumps.
-    pub elasticities: Vec<f64>,
+    /// Relative change of the index at the bound per relative change of each variable; `None` where
+    /// the bound is zero or the index jumps.
+    pub elasticities: Vec<Option<f64>>,
 }
 
 /// The single index behind an objective.
@@ -80,8 +80,8 @@ pub struct Explained {
     pub goal: String,
     /// The objective's index where it is a single one.
     pub objective: Option<Objective>,
-    /// Σ of the scaled objectives.
-    pub merit: f64,
+    /// Σ of the scaled objectives; `None` if the design has none.
+    pub merit: Option<f64>,
     /// What was chosen.
     pub chosen: Vec<Chosen>,
     /// How the search ended.
@@ -90,8 +90,8 @@ pub struct Explained {
     pub kkt_residual: Option<f64>,
     /// Second-order condition.
     pub curvature: Option<Curvature>,
-    /// Largest relative violation of a demand.
-    pub violation: f64,
+    /// Largest relative violation of a demand; `None` if the design has no performance.
+    pub violation: Option<f64>,
     /// Limits that hold the design back, by name.
     pub active: Vec<String>,
     /// Demands that hold it back, with their prices.
@@ -113,12 +113,12 @@ impl Explained {
         let mut explained = Self {
             goal,
             objective: None,
-            merit: values.map_or(f64::NAN, Values::objective),
+            merit: values.map(Values::objective),
             chosen: Vec::new(),
             status: solved.status,
             kkt_residual: certificate.map(|c| c.kkt_residual),
             curvature: certificate.and_then(|c| c.curvature),
-            violation: values.map_or(f64::NAN, |v| v.violation().max(searched.violation())),
+            violation: values.map(|v| v.violation().max(searched.violation())),
             active: Vec::new(),
             prices: Vec::new(),
             effort: solved.effort.clone(),
@@ -295,7 +295,9 @@ fn prices(searched: &Searched, values: &Values, certificate: &Certificate) -> Ve
             continue;
         }
         // An evaluation that fails beside the design tells no price.
-        let slope = study.slope_of_bound(piece, x).unwrap_or(f64::NAN);
+        let Ok(slope) = study.slope_of_bound(piece, x) else {
+            continue;
+        };
         let per_unit = multiplier * slope;
         // The critical speed is kept by a damping ratio: its price is that of the speed.
         let multiplier = match term.index {
@@ -304,8 +306,9 @@ fn prices(searched: &Searched, values: &Values, certificate: &Certificate) -> Ve
         };
         let pairs = study.variables().iter().zip(x).zip(gradient);
         // c(v, bound) = 0 gives dv = −∂c/∂x dx / (∂c/∂bound).
-        let elasticities: Vec<f64> = pairs
+        let elasticities: Vec<Option<f64>> = pairs
             .map(|((variable, &x), g)| -g / slope * relative(variable, variable.value(x)) / bound)
+            .map(|elasticity| elasticity.is_finite().then_some(elasticity))
             .take(study.parameters().len())
             .collect();
         let known = prices

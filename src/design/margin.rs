@@ -3,6 +3,7 @@
 use super::measure::{Wanted, absence, measure_each, worst};
 use crate::{
     case::Case,
+    evaluate::curving::{CurveStatus, ServiceCurve},
     index::{Demand, Demands, Index, Sense},
     optimize::problem::Failure,
     spec::Condition,
@@ -19,6 +20,9 @@ pub struct Margin {
     pub required: f64,
     /// What is reached, SI, or why there is no such performance.
     pub reached: Result<f64, Failure>,
+    /// Status of the curve of the service, where the model does not cover it and the demand is on a
+    /// force or stroke there.
+    pub curve: Option<CurveStatus>,
 }
 
 /// How a design stands to a demand.
@@ -116,11 +120,19 @@ pub fn margins(case: &Case, demands: &Demands, conditions: &[Condition]) -> Vec<
         .flat_map(|(condition, case, demands)| {
             let margins: Vec<Margin> = demands
                 .iter()
-                .map(|demand| Margin {
-                    index: demand.index,
-                    condition: condition.clone(),
-                    required: demand.bound,
-                    reached: value(&case, demand.index),
+                .map(|demand| {
+                    let reached = value(&case, demand.index);
+                    let curve = match reached {
+                        Err(failure) if failure.is_not_covered() => ServiceCurve::of(&case).ok(),
+                        _ => None,
+                    };
+                    Margin {
+                        index: demand.index,
+                        condition: condition.clone(),
+                        required: demand.bound,
+                        reached,
+                        curve: curve.map(|curve| curve.status),
+                    }
                 })
                 .filter(|margin| margin.reached != Err(Failure::NoServiceCurve))
                 .collect();

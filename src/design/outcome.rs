@@ -70,8 +70,8 @@ pub struct Joint {
     pub case: Case,
     /// Indices of the objectives.
     pub indices: Vec<Compared>,
-    /// Gain of the sum of the objectives' relative changes.
-    pub gain: f64,
+    /// Gain of the sum of the objectives' relative changes; `None` if one of the designs has none.
+    pub gain: Option<f64>,
 }
 
 /// An index in the sequential and the joint design, SI.
@@ -124,6 +124,9 @@ pub enum Delivered {
     /// That of all parameters at once: asked for, or because in turn demands are missed that it
     /// meets or comes closer to.
     AllAtOnce,
+    /// The design as given, or the one nearest to it within the bounds: it stands better to the
+    /// demands than any found.
+    AsGiven,
 }
 
 /// A finished design.
@@ -193,11 +196,10 @@ impl DesignResult {
 
     /// The stages that led to the design delivered.
     pub fn delivered_stages(&self) -> impl Iterator<Item = &StageResult> {
-        let joint = self
-            .joint
-            .as_ref()
-            .filter(|_| self.delivered == Delivered::AllAtOnce);
-        let in_turn = self.stages.iter().filter(move |_| joint.is_none());
+        let is = |delivered| self.delivered == delivered;
+        let joint = self.joint.as_ref().filter(|_| is(Delivered::AllAtOnce));
+        let own = joint.is_none() && !is(Delivered::AsGiven);
+        let in_turn = self.stages.iter().filter(move |_| own);
         in_turn.chain(joint.map(|joint| &joint.stage))
     }
 

@@ -23,7 +23,7 @@ use crate::{
     index::{Index, MET},
     optimize::{
         archive::{Archive, Stop},
-        problem::{Problem, Values},
+        problem::Problem,
         solve::Effort,
     },
     parameter::TradeOff,
@@ -97,7 +97,8 @@ pub fn design_beside<T: Send>(
         tasks,
         archive,
     };
-    let (chosen, made) = procedure.run(&open, beside);
+    let given = procedure.tasks.admissible(&spec.case);
+    let (chosen, made) = procedure.run(&open, &given, beside);
     let mut result = procedure.finish(chosen)?;
     result.effort = Effort {
         evaluations: archive.count(),
@@ -148,40 +149,42 @@ impl Procedure<'_> {
     fn run<T: Send>(
         &self,
         open: &[TradeOff],
+        given: &Case,
         beside: impl FnOnce(&Case) -> T + Send,
     ) -> (Chosen, T) {
         let joint_only = self.spec.design.order == Order::Joint
             || !self.spec.objective.is_empty()
             || self.tasks.entangled();
-        if joint_only {
-            let chosen = self.joint_only();
-            let made = beside(&chosen.case);
-            return (chosen, made);
-        }
-        let mut chosen = self.sequential(open);
+        let mut chosen = if joint_only {
+            self.joint_only(given)
+        } else {
+            self.sequential(open, given)
+        };
         let stages = chosen.stages.iter().map(|stage| &stage.result);
-        let in_turn = self.standing(&chosen.case, stages);
-        let short = in_turn != Standing::default();
-        let compare = (open.len() > 1 || short) && self.archive.stopped().is_none();
-        if !compare {
-            let made = beside(&chosen.case);
-            return (chosen, made);
-        }
-        if !short {
+        let mut standing = self.standing(&chosen.case, stages);
+        let short = standing != Standing::default();
+        let compare = !joint_only && (open.len() > 1 || short) && self.archive.stopped().is_none();
+        if compare && !short {
             let case = chosen.case.clone();
-            let (joint, made) = rayon::join(|| self.joint(&case), || beside(&case));
+            let (joint, made) = rayon::join(|| self.joint(&case, given), || beside(&case));
             chosen.joint = joint;
             return (chosen, made);
         }
-        // In turn something is missed: all at once may meet it.
-        chosen.joint = self.joint(&chosen.case);
-        if let Some((joint, _)) = &chosen.joint
-            && self
-                .standing(&joint.case, [&joint.stage])
-                .is_better_than(&in_turn)
-        {
-            chosen.case = joint.case.clone();
-            chosen.delivered = Delivered::AllAtOnce;
+        if compare {
+            // In turn something is missed: all at once may meet it.
+            chosen.joint = self.joint(&chosen.case, given);
+            if let Some((joint, _)) = &chosen.joint {
+                let all_at_once = self.standing(&joint.case, [&joint.stage]);
+                if all_at_once.is_better_than(&standing) {
+                    standing = all_at_once;
+                    chosen.case = joint.case.clone();
+                    chosen.delivered = Delivered::AllAtOnce;
+                }
+            }
+        }
+        if short && self.standing(given, []).is_better_than(&standing) {
+            chosen.case = given.clone();
+            chosen.delivered = Delivered::AsGiven;
         }
         let made = beside(&chosen.case);
         (chosen, made)
@@ -208,9 +211,9 @@ impl Procedure<'_> {
         }
     }
 
-    fn joint_only(&self) -> Chosen {
+    fn joint_only(&self, given: &Case) -> Chosen {
         let stage = self.stage(&StageInput {
-            now: &self.spec.case,
+            now: given,
             trade_off: None,
             known: None,
             also: &[],
@@ -220,7 +223,7 @@ impl Procedure<'_> {
         Chosen {
             case: stages
                 .last()
-                .map_or_else(|| self.spec.case.clone(), |stage| stage.case.clone()),
+                .map_or_else(|| given.clone(), |stage| stage.case.clone()),
             delivered: Delivered::AllAtOnce,
             stages,
             rounds: 0,
@@ -231,8 +234,8 @@ impl Procedure<'_> {
 
     /// The report's order: the stages with their last results, and the rounds taken. A run that ends
     /// early keeps what is finished.
-    fn sequential(&self, open: &[TradeOff]) -> Chosen {
-        let mut now = self.spec.case.clone();
+    fn sequential(&self, open: &[TradeOff], given: &Case) -> Chosen {
+        let mut now = given.clone();
         let mut stages: Vec<Stage> = Vec::new();
         let coupled: Vec<TradeOff> = open
             .iter()
@@ -300,14 +303,14 @@ impl Procedure<'_> {
 
     /// All at once, from the sequential design, the one as given, and from everywhere. `None` if the
     /// run ended before.
-    fn joint(&self, sequential: &Case) -> Option<(Joint, Searched)> {
+    fn joint(&self, sequential: &Case, given: &Case) -> Option<(Joint, Searched)> {
         self.archive.stage("all at once");
         let stage = self
             .stage(&StageInput {
                 now: sequential,
                 trade_off: None,
                 known: None,
-                also: &[sequential.clone(), self.spec.case.clone()],
+                also: &[sequential.clone(), given.clone()],
                 seed: self.spec.design.seed,
             })
             .ok()?;
@@ -320,12 +323,9 @@ impl Procedure<'_> {
                 indices.push(term.index);
             }
         }
-        let merit = |values: &Result<Values, _>| match values {
-            Ok(values) => values.objective(),
-            Err(_) => f64::NAN,
-        };
+        let [before, after] = merits.map(|values| values.map(|values| values.objective()));
         let joint = Joint {
-            gain: merit(&merits[0]) - merit(&merits[1]),
+            gain: before.and_then(|before| Ok(before - after?)).ok(),
             indices: indices
                 .into_iter()
                 .map(|index| Compared {

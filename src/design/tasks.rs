@@ -77,6 +77,32 @@ impl<'a> Tasks<'a> {
         }
     }
 
+    /// The case nearest to one given that the design space allows: open parameters within their bounds,
+    /// one of the profiles, and all rules applied.
+    pub fn admissible(&self, given: &Case) -> Case {
+        let mut case = given.clone();
+        // Twice: a rule may depend on what is set after it.
+        for _ in 0..2 {
+            for parameter in Parameter::ALL {
+                let Some(freedom) = self.space.freedom(parameter) else {
+                    continue;
+                };
+                let value = parameter.get(&case);
+                let allowed = match freedom {
+                    Freedom::Between(bounds) => value.clamp(bounds.lower, bounds.upper),
+                    Freedom::Choices(_) => self.profiles(&case)[0],
+                    Freedom::Fixed(fixed) => *fixed,
+                    Freedom::Tied { to, ratio } => ratio * to.get(&case),
+                };
+                // What is allowed already keeps its bits.
+                if (allowed - value).abs() > 0.0 {
+                    parameter.set(&mut case, allowed);
+                }
+            }
+        }
+        case
+    }
+
     /// Whether a trade-off has anything to choose.
     pub fn open(&self, trade_off: TradeOff) -> bool {
         self.space.parameters.iter().any(|(parameter, freedom)| {

@@ -2,8 +2,8 @@
 //! demands conflict, what the joint optimisation gained.
 
 use super::{
-    design_text::{trade_off, value},
-    number::{both, in_unit, signed_percent, significant},
+    design_text::trade_off,
+    number::{both, in_unit, signed_percent, significant, value},
     sheet::Sheet,
     status,
 };
@@ -265,10 +265,11 @@ pub(crate) fn joint(sheet: &mut Sheet, result: &DesignResult) {
         &[],
         &rows,
     );
-    sheet.line(&if joint.gain > 1e-4 {
+    let Some(gain) = joint.gain else { return };
+    sheet.line(&if gain > 1e-4 {
         format!(
             "All at once gains {} % in sum over the trade-offs taken in turn.",
-            significant(100.0 * joint.gain, 3)
+            significant(100.0 * gain, 3)
         )
     } else {
         "All at once gains nothing over the trade-offs taken in turn.".into()

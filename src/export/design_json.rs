@@ -14,7 +14,7 @@ use crate::{
         outcome::{Delivered, DesignResult, Profile, StageResult},
         sensitivity::Sensitivity,
     },
-    evaluate::checks::checks,
+    evaluate::{checks::checks, curving::CurveStatus},
     optimize::{certificate::Curvature, problem::Failure},
     spec::Spec,
 };
@@ -41,6 +41,7 @@ pub fn design(
         json!(match result.delivered {
             Delivered::InTurn => "in-turn",
             Delivered::AllAtOnce => "all-at-once",
+            Delivered::AsGiven => "as-given",
         }),
     );
     insert("stopped", json!(result.stopped.map(|s| s.to_string())));
@@ -97,12 +98,15 @@ pub fn design(
 }
 
 fn margin(margin: &Margin) -> Value {
+    let exceeded = margin.curve.and_then(CurveStatus::exceeded);
     json!({
         "key": margin.key(),
         "condition": margin.condition,
         "required_si": margin.required,
         "reached_si": margin.reached.as_ref().ok(),
         "failure": margin.reached.as_ref().err(),
+        "exceeded_limit": exceeded.map(|(limit, _)| limit.to_string()),
+        "exceeded_limit_ratio": exceeded.map(|(_, ratio)| ratio),
         "met": margin.met(),
         "verdict": match margin.verdict() {
             Verdict::Met => "met",

@@ -6,6 +6,7 @@ use super::{
     number::{both, signed_percent, significant},
     sheet::Sheet,
     status,
+    verdict::verdict,
 };
 use crate::{
     design::{
@@ -72,65 +73,6 @@ pub fn design(
 
 /// Inputs named per index.
 pub(crate) const MATTERS: usize = 6;
-
-/// A value in both unit systems, as in "320 km/h (200 mph)".
-pub(crate) fn value(quantity: Quantity, si: f64) -> String {
-    let [si, us] = both(quantity, si);
-    if us.is_empty() {
-        si
-    } else {
-        format!("{si} ({us})")
-    }
-}
-
-/// Whether everything is met; if not, what is not.
-pub(crate) fn verdict(sheet: &mut Sheet, result: &DesignResult) {
-    if let Some(stop) = result.stopped {
-        sheet.heading(&format!(
-            "Ended early, {stop}: this is the best found so far."
-        ));
-    }
-    if result.met() {
-        sheet.heading("All requirements and limits are met.");
-        if result.joint_in_place_of_sequence() {
-            sheet.line(
-                "The trade-offs in turn miss some of them; all at once meets them: its design is \
-                 delivered.",
-            );
-        }
-    } else {
-        sheet.heading(&match (result.stopped, result.failure()) {
-            (Some(_), _) => "Not everything is met yet:".into(),
-            (None, Some(failure)) => format!(
-                "No design within the bounds could be evaluated ({failure}); left as given:"
-            ),
-            (None, None) => "Not everything can be met; this is the best compromise:".to_owned(),
-        });
-        if result.joint_in_place_of_sequence() {
-            sheet.line(
-                "All at once comes closer than the trade-offs in turn: its design is delivered.",
-            );
-        }
-        for unmet in result.unmet() {
-            let quantity = unmet.index.quantity();
-            let reached = match &unmet.reached {
-                Ok(si) => value(quantity, *si),
-                Err(failure) => format!("none: {failure}"),
-            };
-            sheet.line(&format!(
-                "{}: asked {}, reached {reached}",
-                unmet.key(),
-                value(quantity, unmet.required)
-            ));
-        }
-    }
-    if !result.settled && result.stopped.is_none() {
-        sheet.line(&format!(
-            "The coupling loop still changed the design after {} rounds.",
-            result.rounds
-        ));
-    }
-}
 
 /// Name of a trade-off as a heading.
 pub(crate) fn stage_name(trade_off: Option<TradeOff>) -> String {

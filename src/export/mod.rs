@@ -19,5 +19,6 @@ pub(crate) mod sheet;
 pub mod status;
 pub mod sweep;
 pub mod table;
+pub(crate) mod verdict;
 
 pub use evaluation_text::evaluation;

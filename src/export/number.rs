@@ -52,6 +52,16 @@ pub fn signed_percent(percent: f64) -> String {
     }
 }
 
+/// A value in both unit systems, as in "320 km/h (200 mph)".
+pub(crate) fn value(quantity: Quantity, si: f64) -> String {
+    let [si, us] = both(quantity, si);
+    if us.is_empty() {
+        si
+    } else {
+        format!("{si} ({us})")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

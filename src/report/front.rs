@@ -16,8 +16,7 @@ use crate::{
     },
     export::{
         certificate::certificate,
-        design_text::value,
-        number::{both, significant},
+        number::{both, significant, value},
         sheet::Sheet,
         status,
     },

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     design::margin::{margins, value},
-    export::{certificate::reached as in_words, design_text::value as written},
+    export::{certificate::reached as in_words, number::value as written},
     index::{Index, Sense},
     optimize::problem::Failure,
 };

@@ -11,9 +11,10 @@ use crate::{
     evaluate::checks::{Verdict, checks},
     export::{
         certificate::{conflict, margin_row},
-        design_text::{performance_rows, stage_name, verdict},
+        design_text::{performance_rows, stage_name},
         sheet::Sheet,
         status,
+        verdict::verdict,
     },
 };
 

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     export::{
-        design_text::value,
+        number::value,
         number::{both, significant},
     },
     index::{Demands, Sense},

@@ -7,14 +7,13 @@ use bogie::{
         outcome::DesignResult,
         pareto::{Front, pareto},
         procedure::{DesignError, design},
-        search::falls_short,
     },
     export::{design_json, design_text, pareto as front_json},
-    index::{Index, Scale, Sense},
+    index::{Demand, Index, Scale, Sense},
     optimize::{
         archive::{Archive, Silent, Stop},
         local::{KKT_TOLERANCE, Status},
-        solve::NoDesign,
+        problem::Failure,
     },
     parameter::Parameter,
     spec::{DesignSpace, Freedom, Spec},
@@ -50,6 +49,13 @@ pub fn of_design(spec: &Spec, budget: usize, twice: bool) -> Vec<String> {
         outside(&spec.design, &result.case).map(|p| format!("outside its bounds,{whole} {p}")),
     );
     broken.extend(moved(spec, &result.case).map(|p| format!("moved though not open: {p}")));
+    if let Some(failure) = result.failure()
+        && all_evaluate(spec, &wanted(spec))
+    {
+        broken.push(format!(
+            "no design evaluated: though the one given can be: {failure}"
+        ));
+    }
     broken.extend(wrong_margins(spec, &result));
     broken.extend(wrong_statuses(&result));
     if let Some(why) = worse_than_given(spec, &result) {
@@ -83,15 +89,13 @@ pub fn of_front(spec: &Spec, budget: usize, twice: bool) -> Vec<String> {
     if count > budget {
         broken.push(format!("budget: {count} of {budget}"));
     }
-    let front = match front {
-        Ok(front) => front,
-        Err(NoDesign::Failed(failure)) if all_evaluate(spec, &spec.front.indices) => {
-            return vec![format!(
-                "no design evaluated: though the one given can be: {failure}"
-            )];
-        }
-        Err(_) => return broken,
-    };
+    if let Some(failure) = front.failure
+        && all_evaluate(spec, &spec.front.indices)
+    {
+        broken.push(format!(
+            "no design evaluated: though the one given can be: {failure}"
+        ));
+    }
     if front.stopped != stopped || front.evaluations != count {
         broken.push(format!("how it ended: {:?}", front.stopped));
     }
@@ -124,36 +128,35 @@ pub fn of_front(spec: &Spec, budget: usize, twice: bool) -> Vec<String> {
     }
     // Seconds are no part of the result in JSON.
     let json = |front: &Front| front_json::json("study", front, spec, "").to_string();
-    if twice && run().0.map(|again| json(&again)).ok() != Some(json(&front)) {
+    if twice && json(&run().0) != json(&front) {
         broken.push("another result: of the same study".into());
     }
     broken
+}
+
+/// Indices that a spec makes as good as can be.
+fn wanted(spec: &Spec) -> Vec<Index> {
+    if spec.objective.is_empty() {
+        vec![
+            Index::CriticalSpeed,
+            Index::DegreeCurve,
+            Index::LateralAcceleration,
+            Index::VerticalAcceleration,
+        ]
+    } else {
+        spec.objective.iter().map(|goal| goal.index).collect()
+    }
 }
 
 /// A refusal that is not true.
 fn refusal(spec: &Spec, error: &DesignError) -> Option<String> {
     let open = |f: &Freedom| matches!(f, Freedom::Between(_) | Freedom::Choices(_));
     let is_open = spec.design.parameters.iter().any(|(_, f)| open(f));
-    let mut wanted: Vec<Index> = spec.objective.iter().map(|goal| goal.index).collect();
-    if wanted.is_empty() {
-        wanted = vec![
-            Index::CriticalSpeed,
-            Index::DegreeCurve,
-            Index::LateralAcceleration,
-            Index::VerticalAcceleration,
-        ];
-    }
     match error {
         DesignError::NothingOpen if is_open => Some("nothing open: though something is".into()),
         DesignError::NoRequirement if !spec.objective.is_empty() => {
             Some("no requirement: though there is an objective".into())
         }
-        DesignError::NothingEvaluated {
-            reason: NoDesign::Failed(failure),
-            ..
-        } if all_evaluate(spec, &wanted) => Some(format!(
-            "no design evaluated: though the one given can be: {failure}"
-        )),
         DesignError::Eigen(error) => Some(format!("no eigenvalues: {error}")),
         _ => None,
     }
@@ -229,7 +232,10 @@ fn expected(spec: &Spec, case: &Case) -> Vec<(Option<String>, Index, f64, Option
     all.flat_map(|(name, case, demands)| {
         let demand = |index: Index| {
             let bound = demands.get(index)?;
-            Some((name.clone(), index, bound, value(&case, index).ok()))
+            let reached = value(&case, index);
+            // Where there is no curve there is no demand in it.
+            (reached != Err(Failure::NoServiceCurve))
+                .then(|| (name.clone(), index, bound, reached.ok()))
         };
         Index::ALL
             .into_iter()
@@ -258,9 +264,10 @@ fn wrong_margins(spec: &Spec, result: &DesignResult) -> Vec<String> {
         broken.push(format!("margins: {found:?} for {expected:?}"));
     }
     let met = |(_, index, bound, reached): &(_, Index, f64, Option<f64>)| {
-        reached.is_some_and(|reached| !falls_short(*index, *bound, reached))
+        let (index, bound) = (*index, *bound);
+        reached.is_some_and(|reached| Demand { index, bound }.met_by(reached))
     };
-    if result.met() != expected.iter().all(met) {
+    if result.met() != (expected.iter().all(met) && result.failure().is_none()) {
         broken.push(format!("met: {} by {expected:?}", result.met()));
     }
     broken
@@ -281,7 +288,9 @@ fn wrong_statuses(result: &DesignResult) -> Vec<String> {
             Status::Optimal if stage.kkt_residual.is_none_or(|r| r > KKT_TOLERANCE) => {
                 wrong("optimal without a certificate", status);
             }
-            Status::Optimal if stage.violation > 1e-4 => wrong("optimal with a violation", status),
+            Status::Optimal if stage.violation.is_none_or(|v| v > 1e-4) => {
+                wrong("optimal with a violation", status)
+            }
             _ => {}
         }
     }
@@ -290,7 +299,6 @@ fn wrong_statuses(result: &DesignResult) -> Vec<String> {
         && stage.trade_off.is_none()
         && stage.explained.status == Status::Optimal
         && !result.met()
-        && !shares_a_margin(result)
     {
         wrong("optimal and not met", Status::Optimal);
     }
@@ -298,19 +306,6 @@ fn wrong_statuses(result: &DesignResult) -> Vec<String> {
         wrong("all met and in conflict", Status::Infeasible);
     }
     broken
-}
-
-/// Whether the smaller margin of critical speed and degree curve may be what was made as large as can be:
-/// then the best may fall short.
-fn shares_a_margin(result: &DesignResult) -> bool {
-    result
-        .stages
-        .iter()
-        .any(|s| s.explained.goal.contains("margin"))
-        || result
-            .stages
-            .iter()
-            .any(|s| s.explained.goal.contains("relative gains"))
 }
 
 /// A design given that keeps all demands is not answered by one that does not.
@@ -347,7 +342,7 @@ fn keeps_the_rest(spec: &Spec, case: &Case) -> bool {
         .filter(|margin| !spec.front.indices.contains(&margin.index));
     let within = |index: Index, bound: f64| {
         worst_value(case, &spec.conditions, index)
-            .is_ok_and(|value| !falls_short(index, bound, value))
+            .is_ok_and(|value| Demand { index, bound }.met_by(value))
     };
     let indices = &spec.front.indices;
     outside(&spec.design, case).next().is_none()

@@ -126,7 +126,7 @@ fn vehicle(rng: &mut Random, lines: &mut Vec<String>) -> Case {
     if rng.random_bool(0.3) {
         let angle = rng.random_range(-3.0..6.0_f64);
         lines.push(format!("service.cant_deficiency = \"{angle} deg\""));
-        case.service.cant_deficiency = angle.to_radians();
+        case.service.cant_deficiency = Some(angle.to_radians());
     }
     if rng.random_bool(0.25) {
         let k_sz = case.vehicle.suspension.secondary.vertical_stiffness;

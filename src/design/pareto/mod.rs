@@ -19,14 +19,13 @@ pub use front::FrontPoint;
 
 use super::{
     explain::Explained,
-    margin::value,
+    margin::worst_value,
     search::{Searched, search_feasible},
     study::Study,
     tasks::Tasks,
 };
 use crate::{
-    case::Case,
-    index::{Index, Sense},
+    index::Index,
     optimize::{
         archive::{Archive, Stop},
         local::{Status, WIDE},
@@ -34,7 +33,7 @@ use crate::{
         solve::{NoDesign, Start},
     },
     parameter::Parameter,
-    spec::Spec,
+    spec::{Condition, Spec},
 };
 use front::{badness, bargains, clean, converged, distance, dominates, extents, of_badness, thin};
 
@@ -90,6 +89,7 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Front {
             Tracer {
                 profile,
                 study: bounded(tasks.bare(&case, indices), spec),
+                conditions: &spec.conditions,
                 indices,
                 seed: spec.design.seed,
                 archive,
@@ -270,6 +270,7 @@ struct Tracer<'a> {
     profile: usize,
     /// Parameters and demands, without those on the indices traded off.
     study: Study,
+    conditions: &'a [Condition],
     indices: &'a [Index],
     seed: u64,
     archive: &'a Archive<'a>,
@@ -484,10 +485,17 @@ impl Tracer<'_> {
         }
         let x = solved.point.x[..study.parameters().len()].to_vec();
         let case = study.design(&x);
-        let worst = |index: &Index| worst_over_conditions(study, &case, *index);
+        let values = self
+            .indices
+            .iter()
+            .map(|i| worst_value(&case, self.conditions, *i));
+        // A design without one of the indices is no point.
+        let Ok(values) = values.collect::<Result<Vec<f64>, Failure>>() else {
+            return Ok(None);
+        };
         Ok(Some(FrontPoint {
             profile: self.profile,
-            values: self.indices.iter().map(worst).collect(),
+            values,
             explained: Explained::new(&searched, format!("best {}", objective.words())),
             case,
             x,
@@ -526,18 +534,4 @@ struct Between<'a> {
     objective: Index,
     kept: Index,
     bounds: &'a [(Index, f64)],
-}
-
-/// Value of an index, the worst over the conditions of a study.
-fn worst_over_conditions(study: &Study, case: &Case, index: Index) -> f64 {
-    let values = (0..study.conditions()).map(|condition| {
-        value(&study.in_condition(case, condition), index).unwrap_or(match index.sense() {
-            Sense::AtLeast => 0.0,
-            Sense::AtMost => f64::INFINITY,
-        })
-    });
-    match index.sense() {
-        Sense::AtLeast => values.fold(f64::INFINITY, f64::min),
-        Sense::AtMost => values.fold(f64::NEG_INFINITY, f64::max),
-    }
 }
