@@ -100,7 +100,6 @@ fn a_stage_without_a_performance_is_not_the_last_word() {
     let result = run(&spec);
     assert!(result.stages.iter().any(|stage| stage.failure().is_some()));
     assert!(result.met() && result.delivered == Delivered::AllAtOnce);
-    assert_eq!(status::of_run(&result), "optimal");
 }
 
 /// A run that ends before its first search delivers a design that may be chosen: within the bounds,

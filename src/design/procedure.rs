@@ -182,7 +182,9 @@ impl Procedure<'_> {
                 }
             }
         }
-        if short && self.standing(given, []).is_better_than(&standing) {
+        // Where a search found nothing with a performance, the design given has none either.
+        let found = standing.shortfall.is_finite();
+        if short && found && self.standing(given, []).is_better_than(&standing) {
             chosen.case = given.clone();
             chosen.delivered = Delivered::AsGiven;
         }
