@@ -108,6 +108,15 @@ impl Integrals {
         self.bands[b * self.functions + k]
     }
 
+    /// Integral of function `k` over the bands between two of the `edges`.
+    pub fn between(&self, edges: &[f64], [low, high]: [f64; 2], k: usize) -> f64 {
+        let bands = edges.windows(2).enumerate();
+        bands
+            .filter(|(_, ends)| ends[0] >= low && ends[1] <= high)
+            .map(|(band, _)| self.band(band, k))
+            .sum()
+    }
+
     /// Integral of function `k` over all bands.
     pub fn total(&self, k: usize) -> f64 {
         self.bands.iter().skip(k).step_by(self.functions).sum()

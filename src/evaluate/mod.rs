@@ -17,6 +17,7 @@ pub mod panels;
 pub mod passenger_ride;
 pub mod response;
 pub mod ride;
+mod rounding;
 pub mod stroke_in_curve;
 pub mod vertical_modes;
 pub mod warnings;

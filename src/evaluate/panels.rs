@@ -22,8 +22,14 @@ const CLEARANCE: f64 = 1.17;
 const RATIO: f64 = 4.0;
 /// Phase between first and last wheelset over half a panel, rad.
 const PHASE: f64 = 10.0;
-/// A rest of the range as short as this goes to the last panel.
+/// A rest of the range that is this share of the last panel goes to it: it leaves the error as it is.
 const REST: f64 = 1e-3;
+/// Width of the narrowest panel over its frequency: some ten nodes apart are told apart there. Towards a
+/// pole that lies straight ahead each panel leaves a twelfth of the distance, so that this takes fourteen.
+/// A peak this narrow is one that rounding decides ([`super::rounding`]).
+const NARROWEST: f64 = 1e-14;
+/// Edges closer than this to the start of the band, as a share of it, are left out.
+const START: f64 = 1e-3;
 
 /// Edges of the panels in Hz, ascending, from one end of the case's band of frequencies to the
 /// other.
@@ -40,7 +46,7 @@ pub fn panels(model: &ForcedModel, case: &Case, poles: &Poles) -> Vec<f64> {
         poles.extend(spectrum.corners().map(|w| Complex::new(0.0, hertz(w))));
         kinks.extend(spectrum.kinks().map(hertz));
     }
-    kinks.retain(|f| (low * (1.0 + REST)..=high).contains(f));
+    kinks.retain(|f| (low * (1.0 + START)..=high).contains(f));
     kinks.sort_by(f64::total_cmp);
     let lag = (model.lags[3] - model.lags[0]) / speed;
     let mut edges = vec![low];
@@ -53,9 +59,9 @@ pub fn panels(model: &ForcedModel, case: &Case, poles: &Poles) -> Vec<f64> {
                 let width = 2.0 * (CLEARANCE * size(to) - to.re) / (CLEARANCE * CLEARANCE - 1.0);
                 next = next.min(at + width);
             }
-            // Undamped poles on the axis would stop the walk; the integration then tells.
-            next = next.max(at * (1.0 + REST));
-            if next > kink * (1.0 - REST) {
+            // An undamped pole on the axis would stop the walk.
+            next = next.max(at * (1.0 + NARROWEST));
+            if kink - next < REST * (next - at) {
                 next = kink;
             }
             edges.push(next);
@@ -63,4 +69,12 @@ pub fn panels(model: &ForcedModel, case: &Case, poles: &Poles) -> Vec<f64> {
         }
     }
     edges
+}
+
+/// Panels that end at further edges, Hz, too.
+pub fn divided(mut panels: Vec<f64>, further: &[f64]) -> Vec<f64> {
+    panels.extend(further);
+    panels.sort_by(f64::total_cmp);
+    panels.dedup();
+    panels
 }

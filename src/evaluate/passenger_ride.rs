@@ -2,7 +2,7 @@
 
 use super::{
     integration::Integrals,
-    panels::panels,
+    panels::{divided, panels},
     response::Response,
     ride::{NoRide, mean_squares, rms_change, stationary},
 };
@@ -151,16 +151,13 @@ impl Spectra {
         tangents: &[ForcedTangent],
         direction: Direction,
     ) -> Result<Self, NoRide> {
-        stationary(poles)?;
+        stationary(model, poles)?;
         let [low, high] = case.model.frequency_band;
         let bands = third_octave::edges_between(low, high);
-        let mut edges = panels(model, case, poles);
-        edges.extend(&bands);
-        edges.sort_by(f64::total_cmp);
-        edges.dedup();
+        let edges = divided(panels(model, case, poles), &bands);
         let accelerations = Response::of(model, &case.service.track, case.service.speed, 0..3);
         let accelerations = accelerations.with_tangents(tangents);
-        let integrals = mean_squares(accelerations, &edges, 9, |f, values| {
+        let integrals = mean_squares(accelerations, case, poles, &edges, 9, |f, values| {
             let (densities, weighted) = values.split_at_mut(3);
             let weights = f.map(|f| direction.weights(f));
             for point in 0..3 {
@@ -209,16 +206,10 @@ impl Spectra {
     /// Centres of the bands that lie wholly within the range of integration, and the integrals of a
     /// function over them.
     fn in_bands(&self, function: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
-        let between = move |low: f64, high: f64| -> f64 {
-            let panels = self.edges.windows(2).enumerate();
-            panels
-                .filter(|(_, ends)| ends[0] >= low && ends[1] <= high)
-                .map(|(panel, _)| self.integrals.band(panel, function))
-                .sum()
-        };
-        self.bands.windows(2).filter_map(move |edges| {
-            let centre = third_octave::centre_of(edges[0], edges[1])?;
-            Some((centre, between(edges[0], edges[1])))
+        self.bands.windows(2).filter_map(move |ends| {
+            let ends = [ends[0], ends[1]];
+            let centre = third_octave::centre_of(ends[0], ends[1])?;
+            Some((centre, self.integrals.between(&self.edges, ends, function)))
         })
     }
 

@@ -2,8 +2,9 @@
 
 use super::{
     integration::{Integrals, integrate},
-    panels::panels,
+    panels::{divided, panels},
     response::Response,
+    rounding,
 };
 use crate::{
     case::Case,
@@ -23,7 +24,7 @@ pub enum NoRide {
     /// Something grows without limit.
     #[error("unstable at the speed: there is no stationary response")]
     Unstable,
-    /// An integral did not meet its tolerance.
+    /// An integral did not meet its tolerance, or rounding decides how high a resonance is.
     #[error("the random response did not converge")]
     NotConverged,
     /// The poles cannot be had.
@@ -69,14 +70,22 @@ pub fn average(values: &[f64]) -> f64 {
 }
 
 /// Whether there is a stationary response.
-pub(super) fn stationary(poles: &Poles) -> Result<(), NoRide> {
-    poles.stable().then_some(()).ok_or(NoRide::Unstable)
+pub(super) fn stationary(model: &ForcedModel, poles: &Poles) -> Result<(), NoRide> {
+    if poles.stable() {
+        Ok(())
+    } else if rounding::makes_grow(model, poles) {
+        Err(NoRide::NotConverged)
+    } else {
+        Err(NoRide::Unstable)
+    }
 }
 
 /// Integrals over panels between `edges`, Hz, of the densities of a response, of as many functions as
 /// `further` says that `more` makes of them, and of their derivatives by design constants.
-pub(crate) fn mean_squares(
+pub(super) fn mean_squares(
     mut response: Response<'_>,
+    case: &Case,
+    poles: &Poles,
     edges: &[f64],
     further: usize,
     more: impl Fn(&[f64; LANES], &mut [[f64; LANES]]),
@@ -89,10 +98,35 @@ pub(crate) fn mean_squares(
         response.with_derivatives(f, &mut values[..outputs], derivatives);
         more(f, values);
     });
-    if !integrals.converged {
+    let (model, range) = (response.model(), response.range());
+    let total = |k: usize| integrals.total(k);
+    if !integrals.converged || rounding::decides(model, case, poles, range, total) {
         return Err(NoRide::NotConverged);
     }
     Ok(integrals)
+}
+
+/// Mean squares of one output of a model between consecutive `edges`, Hz.
+///
+/// # Errors
+///
+/// [`NoRide`] where there are none.
+pub(crate) fn mean_squares_between(
+    model: &ForcedModel,
+    case: &Case,
+    output: usize,
+    edges: &[f64],
+) -> Result<Vec<f64>, NoRide> {
+    let poles = Poles::at(model, case.service.speed)?;
+    stationary(model, &poles)?;
+    let outputs = output..output + 1;
+    let response = Response::of(model, &case.service.track, case.service.speed, outputs);
+    let panels = divided(panels(model, case, &poles), edges);
+    let integrals = mean_squares(response, case, &poles, &panels, 0, |_, _| ())?;
+    let between = edges
+        .windows(2)
+        .map(|ends| integrals.between(&panels, [ends[0], ends[1]], 0));
+    Ok(between.collect())
 }
 
 /// Change of an RMS value with that of its square; what does not move at all does not for any reason.
@@ -109,12 +143,12 @@ fn rms<T>(
     tangents: &[ForcedTangent],
     of: fn(&[f64]) -> T,
 ) -> Result<(T, Vec<T>), NoRide> {
-    stationary(poles)?;
+    stationary(model, poles)?;
     let outputs = model.outputs.len();
     let response = Response::new(model, &case.service.track, case.service.speed);
     let response = response.with_tangents(tangents);
     let edges = panels(model, case, poles);
-    let integrals = mean_squares(response, &edges, 0, |_, _| ())?;
+    let integrals = mean_squares(response, case, poles, &edges, 0, |_, _| ())?;
     let rms: Vec<f64> = (0..outputs).map(|k| integrals.total(k).sqrt()).collect();
     let derivatives = (1..=tangents.len()).map(|p| {
         let of_constant = rms.iter().enumerate();

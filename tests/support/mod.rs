@@ -106,3 +106,14 @@ pub fn problem_files(folder: &str) -> Vec<(String, Vec<u8>)> {
     files.sort();
     files
 }
+
+/// A spec of `tests/data/numerics/`.
+pub fn numerics(name: &str) -> Spec {
+    let path = format!(
+        "{}/tests/data/numerics/{name}.toml",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let source = std::fs::read_to_string(&path).expect(&path);
+    Spec::parse(&source)
+        .unwrap_or_else(|mistakes| panic!("{}", mistakes.render(name, &source, false)))
+}

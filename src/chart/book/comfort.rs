@@ -3,14 +3,16 @@
 use super::{
     Entry,
     performance::{lateral_passengers, vertical_passengers},
-    spectra::mean_squares,
     workbook::Workbook,
 };
 use crate::{
     chart::{Axis, Curve, Dash, Family, Figure, Ink, Labels, Panel, Scale, Stroke, Unit, Weight},
     comfort::{iso_boundary, third_octave},
     dynamics::{ForcedModel, LateralModel, Poles, VerticalModel, lateral, vertical},
-    evaluate::passenger_ride::{BandRide, PassengerRide},
+    evaluate::{
+        passenger_ride::{BandRide, PassengerRide},
+        ride::mean_squares_between,
+    },
     units::Quantity,
 };
 
@@ -132,12 +134,12 @@ fn roll_bands(book: &Workbook, model: &ForcedModel, output: usize) -> Vec<[f64; 
     let case = book.case();
     let [low, high] = case.model.frequency_band;
     let edges = third_octave::edges_between(low, high);
-    let Some(integrals) = mean_squares(model, case, output, &edges) else {
+    let Ok(squares) = mean_squares_between(model, case, output, &edges) else {
         return Vec::new();
     };
     steps(edges.windows(2).enumerate().filter_map(|(b, edges)| {
         let centre = third_octave::centre_of(edges[0], edges[1])?;
-        Some((centre, integrals.band(b, 0).sqrt()))
+        Some((centre, squares[b].sqrt()))
     }))
 }
 

@@ -15,7 +15,7 @@ use crate::{
     },
     comfort::iso_boundary,
     dynamics::{ForcedModel, LateralModel, VerticalModel, elimination::LANES, lateral, vertical},
-    evaluate::{integration::Integrals, response::Response, ride},
+    evaluate::{response::Response, ride::mean_squares_between},
     vehicle::GRAVITY,
 };
 
@@ -39,25 +39,13 @@ fn spectrum(model: &ForcedModel, case: &Case, output: usize, frequencies: &[f64]
     values
 }
 
-/// Mean squares of one output of a model between frequencies in Hz; `None` where they did not converge.
-pub(super) fn mean_squares(
-    model: &ForcedModel,
-    case: &Case,
-    output: usize,
-    edges: &[f64],
-) -> Option<Integrals> {
-    let outputs = output..output + 1;
-    let response = Response::of(model, &case.service.track, case.service.speed, outputs);
-    ride::mean_squares(response, edges, 0, |_, _| ()).ok()
-}
-
 /// Share of the RMS value of an output that lies below 2 Hz: the RMS of the band over that of the
 /// whole.
 fn share(model: &ForcedModel, case: &Case, output: usize) -> Option<f64> {
     let [low, high] = case.model.frequency_band;
     let edges = [low, LOW_BAND.clamp(low, high), high];
-    let integrals = mean_squares(model, case, output, &edges)?;
-    Some((integrals.band(0, 0) / integrals.total(0)).sqrt())
+    let squares = mean_squares_between(model, case, output, &edges).ok()?;
+    Some((squares[0] / squares.iter().sum::<f64>()).sqrt())
 }
 
 /// A panel with the spectrum of an acceleration.

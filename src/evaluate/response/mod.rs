@@ -150,6 +150,16 @@ impl<'a> Response<'a> {
         tangents.map_or(0, Vec::len)
     }
 
+    /// The model.
+    pub fn model(&self) -> &'a ForcedModel {
+        self.model
+    }
+
+    /// Which of the model's outputs it has.
+    pub fn range(&self) -> Range<usize> {
+        self.outputs.clone()
+    }
+
     /// Number of its outputs.
     pub fn outputs(&self) -> usize {
         self.outputs.len()
