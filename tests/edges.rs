@@ -8,13 +8,18 @@ use bogie::{
     closed_form::natural_frequencies::carbody_roll,
     dynamics::{LateralModel, Poles, curving::CurvingError, eigenvalues},
     evaluate::{
-        Evaluation, critical_speed::Stability, curving::CurvingState, ride::NoRide,
+        Evaluation,
+        critical_speed::{Outcome, Stability},
+        curving::CurvingState,
+        ride::NoRide,
         warnings::warnings,
     },
-    export::{evaluation_json::evaluation as json, psd::Spectra},
+    export::{evaluation_json::evaluation as json, modes::Modes, psd::Spectra},
+    index::Index,
+    optimize::problem::Failure,
 };
 use serde_json::Value;
-use support::{MPH, assert_ratio};
+use support::{MPH, assert_ratio, numerics};
 
 /// What `bogie evaluate --format json` says of a case.
 fn result(case: &Case) -> (Evaluation, Value) {
@@ -38,7 +43,10 @@ fn a_carbody_that_rolls_over() {
     assert!(carbody_roll(&case.vehicle).is_none());
     let (evaluation, value) = result(&case);
     assert!(evaluation.stability.divergence.is_some());
-    assert_eq!(evaluation.lateral, Err(NoRide::Unstable));
+    assert_eq!(evaluation.lateral, Err(NoRide::Diverges));
+    assert_eq!(value["lateral_status"], "diverges");
+    assert_eq!(value["stability"]["status"], "diverges");
+    assert!(value["critical_speed_m_per_s"].is_null());
     assert!(evaluation.lateral_passengers.is_none() && value["lateral"].is_null());
     assert_eq!(value["stable_at_speed"], false);
     assert!(warned(&value, "statically unstable"));
@@ -49,6 +57,54 @@ fn a_carbody_that_rolls_over() {
     let names: Vec<&str> = checks.filter_map(|c| c["name"].as_str()).collect();
     assert!(names.iter().any(|n| n.ends_with("frequency, yaw")));
     assert!(!names.iter().any(|n| n.ends_with("frequency, roll")));
+}
+
+/// Whoever asks is told the same of a carbody that overturns: no index of its lateral motion has a number.
+#[test]
+fn divergence_is_called_so_everywhere() {
+    let spec = numerics("divergence-evaluate-vs-sweep");
+    let (evaluation, value) = result(&spec.case);
+    assert_eq!(evaluation.stability.outcome().code(), "diverges");
+    assert_ratio(
+        "start of the range",
+        evaluation.stability.divergence.unwrap(),
+        2.235,
+        1e-3,
+    );
+    assert_eq!(evaluation.stability.critical_speed(), None);
+    for (key, code) in [("stability", "status"), ("lateral_status", "")] {
+        let status = if code.is_empty() {
+            &value[key]
+        } else {
+            &value[key][code]
+        };
+        assert_eq!(status, "diverges", "{key}");
+    }
+    let modes = Modes::new(&spec.case, &[10.0, 60.0]).unwrap();
+    let modes = modes.json("edge", &spec.case);
+    assert_eq!(modes["status"], "diverges");
+    for at_speed in modes["against_speed"].as_array().unwrap() {
+        assert_eq!(at_speed["status"], "diverges");
+    }
+    let lateral = [
+        Index::CriticalSpeed,
+        Index::KinematicDampingRatio,
+        Index::LeastDampingRatio,
+        Index::LeastDampingRatioToSpeed,
+        Index::LateralAcceleration,
+    ];
+    for index in lateral {
+        let reached = bogie::design::margin::value(&spec.case, index);
+        assert_eq!(reached, Err(Failure::Diverges), "{index:?}");
+    }
+    let sweep = bogie::design::sweep::Sweep::new(&spec, &lateral, 1).unwrap();
+    for design in sweep.designs(1..3) {
+        for value in design.values {
+            let reason = value.unwrap_err();
+            assert!(reason.to_string().starts_with("diverges"), "{reason}");
+        }
+    }
+    assert_eq!(serde_json::to_value(Failure::Diverges).unwrap(), "diverges");
 }
 
 /// A contact angle that falls as the wheelset moves out pushes it further out: it leaves the centre
@@ -63,7 +119,8 @@ fn a_wheelset_that_diverges() {
     let start = evaluation.stability.range[0];
     assert_eq!(evaluation.stability.divergence, Some(start));
     assert_eq!(value["stability"]["divergence_m_per_s"], start);
-    assert_eq!(evaluation.lateral, Err(NoRide::Unstable));
+    assert_eq!(evaluation.stability.outcome(), Outcome::Diverges);
+    assert_eq!(evaluation.lateral, Err(NoRide::Diverges));
     assert!(warned(&value, "statically unstable"));
     assert!(!evaluation.modes.stable());
     let model = LateralModel::new(&case);
@@ -112,10 +169,12 @@ fn unstable_at_every_speed() {
     let [start, end] = evaluation.stability.range;
     assert_eq!(evaluation.stability.critical_speed(), Some(start));
     assert_eq!(value["critical_speed_m_per_s"], start);
+    assert_eq!(value["stability"]["status"], "unstable");
     assert_eq!(
-        value["stability"]["status"],
+        value["stability"]["status_text"],
         "unstable at the lowest speed searched"
     );
+    assert_eq!(value["lateral_status"], "unstable");
     assert_eq!(evaluation.lateral, Err(NoRide::Unstable));
     assert!(warned(&value, "is not above the operating speed"));
     // It is so: something grows at any speed looked at.
@@ -135,10 +194,12 @@ fn stable_at_every_speed() {
     assert!(evaluation.stability.onsets.is_empty() && !evaluation.stability.unstable_at_start);
     assert_eq!(evaluation.stability.critical_speed(), None);
     assert!(value["critical_speed_m_per_s"].is_null());
+    assert_eq!(value["stability"]["status"], "stable-over-range");
     assert_eq!(
-        value["stability"]["status"],
+        value["stability"]["status_text"],
         "stable over the whole range searched"
     );
+    assert_eq!(value["lateral_status"], "solved");
     assert!(warned(&value, "hardly centres itself"));
     let model = LateralModel::new(&case);
     for speed in [
@@ -181,7 +242,8 @@ fn nothing_but_springs() {
     assert!(value["vertical"].is_null());
     let spectra = Spectra::new(&case, 20).unwrap();
     assert!(spectra.vertical.is_none());
-    assert_eq!(value["vertical_status"], NoRide::Unstable.to_string());
+    assert_eq!(value["vertical_status"], "unstable");
+    assert_eq!(value["vertical_status_text"], NoRide::Unstable.to_string());
     assert!(warned(&value, "hardly damped"));
     assert!(evaluation.curving.is_ok());
 }

@@ -87,7 +87,7 @@ fn vehicles(seed: u64, count: usize, factor: f64) -> Vec<Case> {
 #[test]
 fn critical_speeds() {
     let mut compared = 0;
-    for case in vehicles(1, 120, 2.0) {
+    for case in vehicles(1, 160, 2.0) {
         let speed = |case: &Case| Stability::of(case).unwrap().critical_speed();
         let stability = Stability::of(&case).unwrap();
         let Some(onset) = stability

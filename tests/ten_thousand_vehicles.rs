@@ -98,7 +98,8 @@ fn is_explained(path: &str, result: &Value) -> bool {
     let none_found = |key: &str| result[key].is_null();
     match path {
         ".critical_speed_m_per_s" => {
-            result["stability"]["status"] == "stable over the whole range searched"
+            let status = &result["stability"]["status"];
+            status == "stable-over-range" || status == "diverges"
         }
         ".lateral" => result["stable_at_speed"] == false,
         ".flange_limit" | ".flange_limited_curve_deg" => none_found("flange_limit"),

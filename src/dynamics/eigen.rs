@@ -47,10 +47,35 @@ impl Poles {
         self.values.iter().copied().filter(|s| s.im > 0.0)
     }
 
+    /// Whether a motion without oscillation grows: divergence. What drifts, at s = 0 but for rounding,
+    /// does not.
+    pub fn diverge(&self) -> bool {
+        diverge(&self.values)
+    }
+
     /// Whether nothing grows or stays as it is.
     pub fn stable(&self) -> bool {
         self.values.iter().all(|s| s.re < 0.0)
     }
+}
+
+/// Rounding of an eigenvalue, as a share of the largest of its matrix: of the backward error of the Schur
+/// form, a small multiple of the machine's (Golub, Van Loan: *Matrix Computations*, 2013, section 7.5.6).
+const ROUNDING: f64 = 100.0 * f64::EPSILON;
+
+/// Re s/|s| above which what grows does not oscillate: whether two nearly equal ones, as those of two trucks
+/// are, come out as a pair is a matter of rounding.
+const REAL: f64 = 0.999;
+
+/// Whether some eigenvalue is positive and real, or as good as real.
+pub fn diverge(values: &[Complex<f64>]) -> bool {
+    let largest = values
+        .iter()
+        .map(|s| s.norm_sqr())
+        .fold(0.0, f64::max)
+        .sqrt();
+    let growing = |s: &Complex<f64>| s.re > ROUNDING * largest && s.re > REAL * s.norm_sqr().sqrt();
+    values.iter().any(growing)
 }
 
 /// How far apart the eigenvalues of two parts that are alike are put at first, relative.

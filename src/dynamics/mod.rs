@@ -14,7 +14,7 @@ mod simultaneous;
 mod tangent;
 pub mod vertical;
 
-pub use eigen::{EigenError, Poles, eigenvalues};
+pub use eigen::{EigenError, Poles, diverge, eigenvalues};
 pub use eigenpairs::{Known, Pairs, Refiner, SETTLED};
 pub use forced::{Excitation, ForcedModel, Output};
 pub use lateral::LateralModel;

@@ -49,8 +49,45 @@ pub struct Stability {
     pub onsets: Vec<Crossing>,
     /// The vehicle already hunts at the lowest speed searched.
     pub unstable_at_start: bool,
-    /// Lowest grid speed with a growing non-oscillatory motion, m/s.
+    /// The lowest speed searched, m/s, if a motion without oscillation grows there: none begins to at a
+    /// higher speed, as det K does not depend on the speed.
     pub divergence: Option<f64>,
+}
+
+/// What the search has come to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// A motion without oscillation grows at the lowest speed searched: there is no critical speed.
+    Diverges,
+    /// An oscillation grows at the lowest speed searched: the critical speed is not above it.
+    Unstable,
+    /// Nothing grows over the whole range.
+    StableOverRange,
+    /// An oscillation loses its damping at a speed within the range.
+    CriticalSpeedFound,
+}
+
+impl Outcome {
+    /// Code in files.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::Diverges => "diverges",
+            Self::Unstable => "unstable",
+            Self::StableOverRange => "stable-over-range",
+            Self::CriticalSpeedFound => "critical-speed-found",
+        }
+    }
+}
+
+impl std::fmt::Display for Outcome {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Diverges => "a motion without oscillation grows: static instability",
+            Self::Unstable => "unstable at the lowest speed searched",
+            Self::StableOverRange => "stable over the whole range searched",
+            Self::CriticalSpeedFound => "critical speed found",
+        })
+    }
 }
 
 /// Shares of the lowest onset's speed below it at which nothing must grow: the first at which that can be
@@ -154,21 +191,38 @@ impl Stability {
         for event in events {
             onsets.push(Crossing::new(model, event.at.speed, event.mode?));
         }
+        // Nearly equal real eigenvalues may come out as a pair.
+        let as_good_as_real = || Poles::at(&model.forced, low).is_ok_and(|poles| poles.diverge());
+        let diverges = branches.diverges() || unstable_at_start && as_good_as_real();
         Some(Self {
             range,
             onsets,
             unstable_at_start,
-            divergence: branches.diverges().then_some(low),
+            divergence: diverges.then_some(low),
         })
     }
 
-    /// The critical speed, m/s: the lowest onset, or the start of the range if the vehicle already
-    /// hunts there. `None`: stable over the whole range.
-    pub fn critical_speed(&self) -> Option<f64> {
-        if self.unstable_at_start {
-            return Some(self.range[0]);
+    /// What the search has come to.
+    pub fn outcome(&self) -> Outcome {
+        if self.divergence.is_some() {
+            Outcome::Diverges
+        } else if self.unstable_at_start {
+            Outcome::Unstable
+        } else if self.onsets.is_empty() {
+            Outcome::StableOverRange
+        } else {
+            Outcome::CriticalSpeedFound
         }
-        self.onsets.first().map(|onset| onset.speed)
+    }
+
+    /// The critical speed, m/s: the lowest onset, or the start of the range if the vehicle already
+    /// hunts there. `None` if it is stable over the whole range, or diverges.
+    pub fn critical_speed(&self) -> Option<f64> {
+        match self.outcome() {
+            Outcome::Diverges | Outcome::StableOverRange => None,
+            Outcome::Unstable => Some(self.range[0]),
+            Outcome::CriticalSpeedFound => self.onsets.first().map(|onset| onset.speed),
+        }
     }
 
     /// Lowest onset of one kind of hunting.

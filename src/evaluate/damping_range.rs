@@ -12,7 +12,7 @@ use super::{
     branches::{Branches, COMPLETE, Care, Search},
     mode::{damping_ratio, frequency},
 };
-use crate::dynamics::{EigenError, Known, LateralModel, Poles};
+use crate::dynamics::{EigenError, Known, LateralModel, Poles, diverge};
 
 /// Where in the range a minimum lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,7 +43,7 @@ pub struct DampingMinimum {
 pub struct DampingRange {
     /// Minima, in no particular order; never empty unless nothing oscillates.
     pub minima: Vec<DampingMinimum>,
-    /// Whether a motion without oscillation grows at some speed.
+    /// Whether a motion without oscillation grows at the lowest speed: then none begins to at a higher one.
     pub diverges: bool,
 }
 
@@ -95,6 +95,8 @@ impl DampingRange {
         let bottom = branches.complete(bottom, &mut search)?;
         let top = branches.walk(high, &mut search, |_, _| false)?;
         let top = branches.complete(top, &mut search)?;
+        let grown: Vec<Complex<f64>> = bottom.iter().map(|known| known.s).collect();
+        let diverges = branches.diverges() || diverge(&grown);
         let mut minima = Vec::new();
         for (place, modes) in [(Place::Bottom, bottom), (Place::Top, top)] {
             let mut ends: Vec<DampingMinimum> = modes
@@ -112,10 +114,7 @@ impl DampingRange {
                 .map(|event| DampingMinimum::new(Place::Inside, &event.at))
                 .filter(|minimum| minimum.damping_ratio < below),
         );
-        Some(Self {
-            minima,
-            diverges: branches.diverges(),
-        })
+        Some(Self { minima, diverges })
     }
 
     /// The least damping ratio in the range.

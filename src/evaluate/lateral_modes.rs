@@ -77,6 +77,8 @@ pub struct LateralModes {
     pub oscillatory: Vec<LateralMode>,
     /// Real eigenvalues, 1/s, ascending; a positive one is a divergence.
     pub real: Vec<f64>,
+    /// Whether a motion without oscillation grows.
+    pub diverge: bool,
 }
 
 impl LateralModes {
@@ -93,6 +95,7 @@ impl LateralModes {
         let mut modes = Self {
             oscillatory: Vec::new(),
             real: Vec::new(),
+            diverge: poles.diverge(),
         };
         let mut found = Vec::new();
         for &s in &poles.values {
@@ -136,9 +139,52 @@ impl LateralModes {
             .min_by(|a, b| a.damping_ratio.total_cmp(&b.damping_ratio))
     }
 
+    /// Whether motions die away.
+    pub fn status(&self) -> AtSpeed {
+        if self.diverge {
+            AtSpeed::Diverges
+        } else if self.stable() {
+            AtSpeed::Stable
+        } else {
+            AtSpeed::Unstable
+        }
+    }
+
     /// Whether nothing grows.
     pub fn stable(&self) -> bool {
         self.oscillatory.iter().all(|m| m.damping_ratio > 0.0) && self.real.iter().all(|&s| s < 0.0)
+    }
+}
+
+/// Whether the motions of a vehicle die away at one speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AtSpeed {
+    /// All do.
+    Stable,
+    /// An oscillation grows, or something stays as it is.
+    Unstable,
+    /// A motion without oscillation grows.
+    Diverges,
+}
+
+impl AtSpeed {
+    /// Code in files.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::Stable => "stable",
+            Self::Unstable => "unstable",
+            Self::Diverges => "diverges",
+        }
+    }
+}
+
+impl std::fmt::Display for AtSpeed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Stable => "stable at the speed",
+            Self::Unstable => "unstable at the speed",
+            Self::Diverges => "a motion without oscillation grows: static instability",
+        })
     }
 }
 

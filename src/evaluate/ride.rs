@@ -21,15 +21,30 @@ const TOLERANCE: f64 = 1e-6;
 /// Why there is no stationary response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NoRide {
-    /// Something grows without limit.
+    /// An oscillation grows without limit, or something drifts.
     #[error("unstable at the speed: there is no stationary response")]
     Unstable,
+    /// A motion without oscillation grows.
+    #[error("a motion without oscillation grows: there is no stationary response")]
+    Diverges,
     /// An integral did not meet its tolerance, or rounding decides how high a resonance is.
     #[error("the random response did not converge")]
     NotConverged,
     /// The poles cannot be had.
     #[error(transparent)]
     Poles(#[from] EigenError),
+}
+
+impl NoRide {
+    /// Code in files.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::Unstable => "unstable",
+            Self::Diverges => "diverges",
+            Self::NotConverged => "not-converged",
+            Self::Poles(_) => "eigenvalues-not-converged",
+        }
+    }
 }
 
 /// Lateral ride of a stable vehicle.
@@ -73,6 +88,8 @@ pub fn average(values: &[f64]) -> f64 {
 pub(super) fn stationary(model: &ForcedModel, poles: &Poles) -> Result<(), NoRide> {
     if poles.stable() {
         Ok(())
+    } else if poles.diverge() {
+        Err(NoRide::Diverges)
     } else if rounding::makes_grow(model, poles) {
         Err(NoRide::NotConverged)
     } else {

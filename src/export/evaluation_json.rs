@@ -78,8 +78,10 @@ pub(super) fn indices(case: &Case, evaluation: &Evaluation) -> Map<String, Value
         "vertical_modes": evaluation.vertical_modes.iter().map(vertical_mode).collect::<Vec<_>>(),
         "lateral": lateral(evaluation),
         "lateral_status": ride_status(&evaluation.lateral),
+        "lateral_status_text": ride_status_text(&evaluation.lateral),
         "vertical": vertical(evaluation),
         "vertical_status": ride_status(&evaluation.vertical),
+        "vertical_status_text": ride_status_text(&evaluation.vertical),
         "axle_load_n": case.vehicle.axle_load(),
     });
     match object {
@@ -100,15 +102,10 @@ pub(super) fn inputs(case: &Case) -> Value {
 }
 
 fn stability(found: &Stability) -> Value {
-    let status = if found.unstable_at_start {
-        "unstable at the lowest speed searched"
-    } else if found.onsets.is_empty() {
-        "stable over the whole range searched"
-    } else {
-        "critical speed found"
-    };
+    let outcome = found.outcome();
     json!({
-        "status": status,
+        "status": outcome.code(),
+        "status_text": outcome.to_string(),
         "speeds_searched_m_per_s": found.range,
         "onsets": found.onsets.iter().map(onset).collect::<Vec<_>>(),
         "divergence_m_per_s": found.divergence,
@@ -200,13 +197,24 @@ fn passengers(
     object
 }
 
-/// Why a ride is null, where it is.
-fn ride_status<T>(ride: &Result<T, NoRide>) -> String {
+/// Why a ride is null, where it is: a code.
+fn ride_status<T>(ride: &Result<T, NoRide>) -> &'static str {
     match ride {
-        Ok(_) => "solved".into(),
+        Ok(_) => SOLVED,
+        Err(reason) => reason.code(),
+    }
+}
+
+/// The same in words.
+fn ride_status_text<T>(ride: &Result<T, NoRide>) -> String {
+    match ride {
+        Ok(_) => SOLVED.into(),
         Err(reason) => reason.to_string(),
     }
 }
+
+/// Status of what there is.
+const SOLVED: &str = "solved";
 
 /// Null where there is no stationary response.
 fn lateral(evaluation: &Evaluation) -> Value {

@@ -9,7 +9,7 @@ use crate::{
     evaluate::{
         Evaluation,
         checks::{Check, Verdict, checks},
-        critical_speed::Hunting,
+        critical_speed::{Hunting, Outcome},
         curving::LimitedCurve,
         passenger_ride::PassengerRide,
         ride::average,
@@ -51,7 +51,13 @@ pub(crate) fn stability(sheet: &mut Sheet, evaluation: &Evaluation) {
         speed(found.range[0])[1],
         speed(found.range[1])[1]
     );
-    if found.unstable_at_start {
+    if found.outcome() == Outcome::Diverges {
+        rows.push(row(
+            "critical speed",
+            ["none".into(), String::new()],
+            &Outcome::Diverges.to_string(),
+        ));
+    } else if found.unstable_at_start {
         let [si, us] = speed(found.range[0]);
         rows.push(row(
             "critical speed",
@@ -65,7 +71,7 @@ pub(crate) fn stability(sheet: &mut Sheet, evaluation: &Evaluation) {
     for kind in [Hunting::Truck, Hunting::Carbody] {
         if let Some(onset) = found.onset(kind) {
             let lowest = found.onsets.first().is_some_and(|o| o.kind == kind);
-            let name = if lowest && !found.unstable_at_start {
+            let name = if lowest && found.critical_speed() == Some(onset.speed) {
                 "critical speed"
             } else {
                 "also"
@@ -75,11 +81,7 @@ pub(crate) fn stability(sheet: &mut Sheet, evaluation: &Evaluation) {
         }
     }
     if let Some(v) = found.divergence {
-        rows.push(row(
-            "divergence",
-            speed(v),
-            "a non-oscillatory motion grows: static instability",
-        ));
+        rows.push(row("divergence", speed(v), "at every speed"));
     }
     for (name, mode) in [
         ("kinematic mode", evaluation.modes.kinematic()),

@@ -12,7 +12,7 @@ use crate::{
     case::Case,
     dynamics::{EigenError, LateralModel, Poles, VerticalModel},
     evaluate::{
-        lateral_modes::LateralModes,
+        lateral_modes::{AtSpeed, LateralModes},
         vertical_modes::{VerticalMode, vertical_modes},
     },
     units::Quantity,
@@ -80,6 +80,13 @@ impl Modes {
         if !real.is_empty() {
             sheet.line(&format!("real eigenvalues, 1/s: {}", real.join("  ")));
         }
+        if self.lateral.status() != AtSpeed::Stable {
+            sheet.line(&format!(
+                "{}: {}",
+                self.lateral.status().code(),
+                self.lateral.status()
+            ));
+        }
         sheet.heading("Vertical model");
         let rows: Vec<Vec<String>> = self
             .vertical
@@ -125,10 +132,13 @@ impl Modes {
             "modes_at_speed": evaluation_json::modes(&self.lateral),
             "real_eigenvalues_per_s": self.lateral.real,
             "stable_at_speed": self.lateral.stable(),
+            "status": self.lateral.status().code(),
+            "status_text": self.lateral.status().to_string(),
             "vertical_modes": self.vertical.iter().map(evaluation_json::vertical_mode).collect::<Vec<_>>(),
             "against_speed": self.against_speed.iter().map(|(v, m)| json!({
                 "speed_m_per_s": v,
                 "modes": evaluation_json::modes(m),
+                "status": m.status().code(),
             })).collect::<Vec<_>>(),
         })
     }

@@ -152,8 +152,8 @@ pub enum Failure {
     #[error("unstable at the operating speed")]
     Unstable,
     /// A motion without oscillation grows: the carbody overturns, or the trucks diverge.
-    #[error("a static instability")]
-    Diverging,
+    #[error("diverges: a static instability")]
+    Diverges,
     /// The curving equations are singular.
     #[error("no steady-state solution in a curve")]
     NoCurve,
@@ -174,6 +174,7 @@ pub enum Failure {
     Eigenvalues,
     /// The random response did not meet its tolerance.
     #[error("random response not converged")]
+    #[serde(rename = "not-converged")]
     Integration,
     /// An index came out infinite or undefined.
     #[error("an index that is not a number")]

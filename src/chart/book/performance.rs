@@ -2,23 +2,28 @@
 
 use crate::{
     case::Case,
-    dynamics::{EigenError, LateralModel, Poles, VerticalModel},
+    dynamics::{LateralModel, Poles, VerticalModel},
     evaluate::{
-        critical_speed::Stability,
+        critical_speed::{Outcome, Stability},
         curving::CurvingLimits,
         lateral_modes::{LateralMode, LateralModes},
         passenger_ride::PassengerRide,
         ride::{LateralRide, VerticalRide},
     },
+    optimize::problem::Failure,
 };
 
 /// Critical speed, m/s. `None`: stable over the whole range searched.
 ///
 /// # Errors
 ///
-/// [`EigenError`] if there are no eigenvalues.
-pub fn critical_speed(case: &Case) -> Result<Option<f64>, EigenError> {
-    Ok(Stability::of(case)?.critical_speed())
+/// [`Failure`] if there are no eigenvalues, or the vehicle diverges.
+pub fn critical_speed(case: &Case) -> Result<Option<f64>, Failure> {
+    let found = Stability::of(case).map_err(|_| Failure::Eigenvalues)?;
+    match found.outcome() {
+        Outcome::Diverges => Err(Failure::Diverges),
+        _ => Ok(found.critical_speed()),
+    }
 }
 
 /// Degree curve, degrees. `None`: there is no steady state.

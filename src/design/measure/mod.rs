@@ -173,7 +173,12 @@ impl<'a> Job<'a> {
         let (rides, stability): (Vec<_>, Vec<_>) =
             wanted.iter().partition(|(_, wanted)| wanted.is_ride());
         if self.purpose == Purpose::Search && !rides.is_empty() && !lateral.poles.stable() {
-            return failed(Failure::Unstable);
+            let diverges = lateral.poles.diverge();
+            return failed(if diverges {
+                Failure::Diverges
+            } else {
+                Failure::Unstable
+            });
         }
         if let Some(constants) = self.constants {
             lateral.constants = Some(constants);
@@ -291,6 +296,7 @@ impl<'a> Vertical<'a> {
 fn no_ride(reason: NoRide) -> Failure {
     match reason {
         NoRide::Unstable => Failure::Unstable,
+        NoRide::Diverges => Failure::Diverges,
         NoRide::NotConverged => Failure::Integration,
         NoRide::Poles(_) => Failure::Eigenvalues,
     }

@@ -47,7 +47,7 @@ impl Lateral<'_> {
         let range = DampingRange::new(&self.model, &self.poles, [start, speed], below)
             .map_err(|_| Failure::Eigenvalues)?;
         if range.diverges {
-            return Err(Failure::Diverging);
+            return Err(Failure::Diverges);
         }
         if range.minima.is_empty() {
             return Err(Failure::NoMode);
@@ -76,6 +76,9 @@ impl Lateral<'_> {
     }
 
     fn damping_at_speed(&self, kinematic_only: bool) -> Measured {
+        if self.poles.diverge() {
+            return Err(Failure::Diverges);
+        }
         let modes = LateralModes::new(&self.model, self.case, &self.poles)
             .map_err(|_| Failure::Eigenvalues)?;
         let system = &self.model.forced.system;
@@ -108,7 +111,7 @@ impl Lateral<'_> {
         let stability = Stability::new(&self.model, &self.poles, range, NEARBY);
         let stability = stability.map_err(|_| Failure::Eigenvalues)?;
         if stability.divergence.is_some() {
-            return Err(Failure::Diverging);
+            return Err(Failure::Diverges);
         }
         if stability.unstable_at_start || stability.onsets.is_empty() {
             let bound = stability.critical_speed().unwrap_or(range[1]);

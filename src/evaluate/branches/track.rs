@@ -42,6 +42,8 @@ pub struct Branches<'m> {
     steps: Vec<[Option<[Known; 2]>; LANES]>,
     /// Real eigenvalues that grow, none or one: then at every speed, as det K is negative.
     growing: usize,
+    /// Whether they do by more than rounding.
+    diverges: bool,
 }
 
 /// Where a walk has ended.
@@ -53,8 +55,10 @@ impl<'m> Branches<'m> {
     pub fn within(range: [f64; 2], model: &'m LateralModel, poles: &Poles) -> Option<Self> {
         let mut refiner = Refiner::new(model.forced.stiffness());
         let growing = poles.values.iter().filter(|s| s.im == 0.0 && s.re >= 0.0);
+        let growing = growing.count();
         let mut branches = Self {
-            growing: growing.count(),
+            growing,
+            diverges: growing > 0 && poles.diverge(),
             start: State::new(&mut refiner, poles.speed, worth_following(poles))?,
             spare: None,
             steps: Vec::new(),
@@ -67,9 +71,9 @@ impl<'m> Branches<'m> {
         (branches.growing <= 1).then_some(branches)
     }
 
-    /// Whether a motion without oscillation grows, at any speed.
+    /// Whether a real eigenvalue grows, at any speed.
     pub fn diverges(&self) -> bool {
-        self.growing > 0
+        self.diverges
     }
 
     /// Speed from which the modes are followed, m/s.

@@ -44,7 +44,7 @@ impl Stability {
             range,
             onsets: Vec::new(),
             unstable_at_start: sweep[0].unstable() > 0,
-            divergence: sweep.iter().find(|s| s.diverges).map(|s| s.speed),
+            divergence: sweep[0].diverges.then_some(range[0]),
         };
         for pair in sweep.windows(2) {
             stability.cross(model, &pair[0], &pair[1], DIVISIONS)?;

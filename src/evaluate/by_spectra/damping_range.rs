@@ -60,7 +60,7 @@ impl DampingRange {
         let sweep = sweep(model, &speeds, f64::NEG_INFINITY)?;
         let mut found = Self {
             minima: Vec::new(),
-            diverges: sweep.iter().any(|s| s.diverges),
+            diverges: sweep.first().is_some_and(|s| s.diverges),
         };
         if let [first, .., last] = &sweep[..] {
             found.end(first, Place::Bottom, below);

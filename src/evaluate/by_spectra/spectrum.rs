@@ -14,7 +14,7 @@ pub(super) struct Spectrum {
     pub speed: f64,
     /// Those with positive imaginary part.
     pub oscillatory: Vec<Complex<f64>>,
-    /// Whether a real eigenvalue is positive.
+    /// Whether a motion without oscillation grows.
     pub diverges: bool,
 }
 
@@ -53,7 +53,7 @@ impl Spectrum {
         let poles = Poles::at(&model.forced, speed)?;
         Ok(Self {
             speed,
-            diverges: poles.values.iter().any(|s| s.im == 0.0 && s.re > 0.0),
+            diverges: poles.diverge(),
             oscillatory: poles.oscillatory().collect(),
         })
     }
