@@ -121,6 +121,8 @@ fn a_wheelset_that_diverges() {
     assert_eq!(value["stability"]["divergence_m_per_s"], start);
     assert_eq!(evaluation.stability.outcome(), Outcome::Diverges);
     assert_eq!(evaluation.lateral, Err(NoRide::Diverges));
+    // The trucks themselves diverge: they have no kinematic mode.
+    assert!(evaluation.modes.kinematic.is_none() && value["kinematic_mode"].is_null());
     assert!(warned(&value, "statically unstable"));
     assert!(!evaluation.modes.stable());
     let model = LateralModel::new(&case);

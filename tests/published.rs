@@ -217,7 +217,7 @@ fn index(spec: &Spec, name: &str) -> f64 {
     match name {
         "critical_speed_mph" => evaluation.stability.critical_speed().unwrap() / MPH,
         "degree_curve" => evaluation.curving.as_ref().unwrap().degree(),
-        "kinematic_damping_ratio" => evaluation.modes.kinematic().unwrap().damping_ratio,
+        "kinematic_damping_ratio" => evaluation.modes.kinematic.as_ref().unwrap().damping_ratio,
         "primary_stroke_wheelset_4_in" => lateral.primary_stroke[3] / INCH,
         "wheelset_excursion_wheelset_1_in" => lateral.excursion[0] / INCH,
         "secondary_lateral_stroke_in" => lateral.average_stroke() / INCH,
@@ -297,7 +297,7 @@ fn prototype() {
     );
     assert_ratio(
         "kinematic mode",
-        evaluation.modes.kinematic().unwrap().frequency,
+        evaluation.modes.kinematic.as_ref().unwrap().frequency,
         2.16,
         0.02,
     );

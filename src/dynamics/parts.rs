@@ -52,7 +52,7 @@ pub(super) fn state_matrices(system: &LinearSystem, v: f64) -> Vec<DMatrix<f64>>
             part.extend(rest.extract_if(.., |j| tied(j)));
             next += 1;
         }
-        matrices.push(alone(system, [&k, &c], &part, v));
+        matrices.push(alone(system, [&k, &c], &part).state_matrix(v));
     }
     matrices
 }
@@ -68,24 +68,32 @@ pub(super) fn held_apart(system: &LinearSystem, v: f64) -> Option<[DMatrix<f64>;
     let of_neither = |i: &usize| !system.alike.iter().flatten().any(|other| other == i);
     let rest: Vec<usize> = (0..system.order()).filter(of_neither).collect();
     let c = system.damping_at(v);
-    Some([one, rest].map(|part| alone(system, [&system.stiffness, &c], &part, v)))
+    let matrix = |part: Vec<usize>| alone(system, [&system.stiffness, &c], &part).state_matrix(v);
+    Some([one, rest].map(matrix))
 }
 
-/// Matrix of the first-order form of some coordinates alone, of a system with stiffness `k` and damping
-/// `c`.
-fn alone(
-    system: &LinearSystem,
-    [k, c]: [&DMatrix<f64>; 2],
-    part: &[usize],
-    v: f64,
-) -> DMatrix<f64> {
+/// The first of the two parts of a system that are alike, with all other coordinates held, at speed `v`,
+/// m/s: its coordinates' numbers in the system, and its own equations, whose damping is that at `v`
+/// whatever the speed. The whole system if no parts are alike.
+pub(super) fn one_alike(system: &LinearSystem, v: f64) -> (Vec<usize>, LinearSystem) {
+    let one: Vec<usize> = if system.alike.is_empty() {
+        (0..system.order()).collect()
+    } else {
+        system.alike.iter().map(|pair| pair[0]).collect()
+    };
+    let held = alone(system, [&system.stiffness, &system.damping_at(v)], &one);
+    (one, held)
+}
+
+/// Some coordinates of a system with stiffness `k` and damping `c`, all others held.
+fn alone(system: &LinearSystem, [k, c]: [&DMatrix<f64>; 2], part: &[usize]) -> LinearSystem {
     let of = |matrix: &DMatrix<f64>| {
         DMatrix::from_fn(part.len(), part.len(), |i, j| matrix[(part[i], part[j])])
     };
     let mut alone = LinearSystem::new(part.iter().map(|&i| system.mass[i]).collect(), 0);
     alone.stiffness = of(k);
     alone.damping[0] = of(c);
-    alone.state_matrix(v)
+    alone
 }
 
 /// Puts the sum and the difference of two coordinates in their places, both over √2.

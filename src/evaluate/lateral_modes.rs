@@ -1,6 +1,9 @@
 //! Modes of the lateral model at one speed, named by what moves.
 
-use super::mode::{Mode, damping_ratio, frequency};
+use super::{
+    kinematic_mode::KinematicMode,
+    mode::{Mode, damping_ratio, frequency},
+};
 use crate::{
     case::Case,
     closed_form::kinematic,
@@ -16,7 +19,7 @@ use crate::{
 /// out as a pair or as two real roots.
 pub const OVERDAMPED: f64 = 0.999;
 
-/// What a mode of the lateral model does.
+/// What a mode of the lateral model does: a name to read, on which no number depends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LateralShape {
     /// Carbody lateral and roll, turning about a point below its c.g.
@@ -79,6 +82,8 @@ pub struct LateralModes {
     pub real: Vec<f64>,
     /// Whether a motion without oscillation grows.
     pub diverge: bool,
+    /// Hunting of a truck under a carbody at rest, whatever modes are named; `None` if the truck diverges.
+    pub kinematic: Option<KinematicMode>,
 }
 
 impl LateralModes {
@@ -96,6 +101,7 @@ impl LateralModes {
             oscillatory: Vec::new(),
             real: Vec::new(),
             diverge: poles.diverge(),
+            kinematic: KinematicMode::new(model, poles.speed)?,
         };
         let mut found = Vec::new();
         for &s in &poles.values {
@@ -128,14 +134,6 @@ impl LateralModes {
     pub fn least_damped(&self) -> Option<&LateralMode> {
         self.oscillatory
             .iter()
-            .min_by(|a, b| a.damping_ratio.total_cmp(&b.damping_ratio))
-    }
-
-    /// The kinematic mode, the less damped of its two phases.
-    pub fn kinematic(&self) -> Option<&LateralMode> {
-        self.oscillatory
-            .iter()
-            .filter(|m| m.shape == LateralShape::Kinematic)
             .min_by(|a, b| a.damping_ratio.total_cmp(&b.damping_ratio))
     }
 

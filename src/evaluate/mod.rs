@@ -10,6 +10,7 @@ pub mod damping_range;
 pub mod equalization;
 pub mod gradients;
 pub mod integration;
+pub mod kinematic_mode;
 pub mod lateral_modes;
 pub mod limits;
 pub mod mode;

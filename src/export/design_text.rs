@@ -221,7 +221,7 @@ pub(crate) fn performance_rows(result: &DesignResult) -> Vec<Vec<String>> {
     rows.push(line(
         "kinematic mode damping ratio",
         "",
-        &|e| e.modes.kinematic().map(|m| m.damping_ratio),
+        &|e| e.modes.kinematic.as_ref().map(|m| m.damping_ratio),
         1.0,
     ));
     for (unit, factor) in [("in", inch), ("mm", 1e-3)] {

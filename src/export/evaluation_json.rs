@@ -11,7 +11,8 @@ use crate::{
         checks::{Check, Verdict, checks},
         critical_speed::{Crossing, Stability},
         curving::{CurveStatus, LimitedCurve},
-        lateral_modes::{LateralMode, LateralModes},
+        kinematic_mode::KinematicMode,
+        lateral_modes::{LateralMode, LateralModes, LateralShape},
         passenger_ride::PassengerRide,
         ride::NoRide,
         vertical_modes::VerticalMode,
@@ -73,7 +74,7 @@ pub(super) fn indices(case: &Case, evaluation: &Evaluation) -> Map<String, Value
         "modes_at_speed": modes.oscillatory.iter().map(mode).collect::<Vec<_>>(),
         "real_eigenvalues_per_s": modes.real,
         "stable_at_speed": modes.stable(),
-        "kinematic_mode": modes.kinematic().map(mode),
+        "kinematic_mode": modes.kinematic.as_ref().map(kinematic_mode),
         "least_damped_mode": modes.least_damped().map(mode),
         "vertical_modes": evaluation.vertical_modes.iter().map(vertical_mode).collect::<Vec<_>>(),
         "lateral": lateral(evaluation),
@@ -134,6 +135,16 @@ pub(super) fn mode(m: &LateralMode) -> Value {
         "damping_ratio": m.damping_ratio,
         "name": m.shape.to_string(),
         "carbody_energy_share": m.carbody_share,
+    })
+}
+
+/// The carbody is at rest: it has no share in the energy.
+pub(super) fn kinematic_mode(m: &KinematicMode) -> Value {
+    json!({
+        "frequency_hz": m.frequency,
+        "damping_ratio": m.damping_ratio,
+        "name": LateralShape::Kinematic.to_string(),
+        "carbody_energy_share": 0.0,
     })
 }
 

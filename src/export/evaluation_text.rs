@@ -11,6 +11,7 @@ use crate::{
         checks::{Check, Verdict, checks},
         critical_speed::{Hunting, Outcome},
         curving::LimitedCurve,
+        lateral_modes::LateralShape,
         passenger_ride::PassengerRide,
         ride::average,
     },
@@ -83,17 +84,20 @@ pub(crate) fn stability(sheet: &mut Sheet, evaluation: &Evaluation) {
     if let Some(v) = found.divergence {
         rows.push(row("divergence", speed(v), "at every speed"));
     }
-    for (name, mode) in [
-        ("kinematic mode", evaluation.modes.kinematic()),
-        ("least-damped mode", evaluation.modes.least_damped()),
-    ] {
-        if let Some(mode) = mode {
-            let values = [
-                format!("{} Hz", significant(mode.frequency, 4)),
-                format!("ζ {}", significant(mode.damping_ratio, 3)),
-            ];
-            rows.push(row(name, values, &mode.shape.to_string()));
-        }
+    let mode = |frequency: f64, damping_ratio: f64| {
+        [
+            format!("{} Hz", significant(frequency, 4)),
+            format!("ζ {}", significant(damping_ratio, 3)),
+        ]
+    };
+    if let Some(kinematic) = &evaluation.modes.kinematic {
+        let values = mode(kinematic.frequency, kinematic.damping_ratio);
+        let note = format!("{}, carbody at rest", LateralShape::Kinematic);
+        rows.push(row("kinematic mode", values, &note));
+    }
+    if let Some(least) = evaluation.modes.least_damped() {
+        let values = mode(least.frequency, least.damping_ratio);
+        rows.push(row("least-damped mode", values, &least.shape.to_string()));
     }
     sheet.table(&[], &[3], &rows);
 }

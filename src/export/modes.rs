@@ -134,14 +134,23 @@ impl Modes {
             "stable_at_speed": self.lateral.stable(),
             "status": self.lateral.status().code(),
             "status_text": self.lateral.status().to_string(),
+            "kinematic_mode": kinematic(&self.lateral),
             "vertical_modes": self.vertical.iter().map(evaluation_json::vertical_mode).collect::<Vec<_>>(),
             "against_speed": self.against_speed.iter().map(|(v, m)| json!({
                 "speed_m_per_s": v,
                 "modes": evaluation_json::modes(m),
                 "status": m.status().code(),
+                "kinematic_mode": kinematic(m),
             })).collect::<Vec<_>>(),
         })
     }
+}
+
+fn kinematic(modes: &LateralModes) -> Option<Value> {
+    modes
+        .kinematic
+        .as_ref()
+        .map(evaluation_json::kinematic_mode)
 }
 
 /// A share in whole per cent.
@@ -157,11 +166,16 @@ fn speed_row(v: f64, modes: &LateralModes) -> Vec<String> {
     let number = |text: &str| text.split(' ').next().unwrap_or_default().to_string();
     let [si, us] = both(Quantity::Speed, v).map(|t| number(&t));
     let mut row = vec![si, us];
-    for mode in [modes.kinematic(), modes.least_damped()] {
-        let values = mode.map_or(["–".into(), "–".into()], |m| {
-            [significant(m.frequency, 4), significant(m.damping_ratio, 3)]
-        });
-        row.extend(values);
+    let kinematic = modes.kinematic.as_ref();
+    let least = modes.least_damped();
+    for mode in [
+        kinematic.map(|m| (m.frequency, m.damping_ratio)),
+        least.map(|m| (m.frequency, m.damping_ratio)),
+    ] {
+        row.extend(mode.map_or(
+            ["–".into(), "–".into()],
+            |(frequency, damping_ratio)| [significant(frequency, 4), significant(damping_ratio, 3)],
+        ));
     }
     row.push(
         modes

@@ -8,7 +8,10 @@ use super::{
 };
 use crate::{
     dynamics::LateralModel,
-    evaluate::lateral_modes::{LateralShape, OVERDAMPED},
+    evaluate::{
+        kinematic_mode::KinematicMode,
+        lateral_modes::{LateralShape, OVERDAMPED},
+    },
     units::Quantity,
 };
 
@@ -87,12 +90,9 @@ pub(super) fn follow(book: &Workbook, speeds: &[f64]) -> Vec<Followed> {
     followed
 }
 
-/// Eigenvalues of the kinematic modes at a speed.
-pub(super) fn kinematic_at(book: &Workbook, speed: f64) -> Vec<Complex64> {
-    let case = book.case();
-    lateral_modes(case, &LateralModel::new(case), speed)
-        .iter()
-        .filter(|m| m.shape == LateralShape::Kinematic)
-        .map(|m| m.mode.eigenvalue)
-        .collect()
+/// Eigenvalue of the kinematic mode at a speed, with the damping ratio that is its index. `None` if the
+/// truck diverges.
+pub(super) fn kinematic_at(book: &Workbook, speed: f64) -> Option<Complex64> {
+    let mode = KinematicMode::new(&LateralModel::new(book.case()), speed);
+    mode.ok().flatten().map(|mode| mode.eigenvalue())
 }

@@ -33,7 +33,7 @@ struct Shown<'a> {
     numbers: Vec<u32>,
     speeds: Vec<f64>,
     modes: Vec<Followed>,
-    /// The kinematic mode with the least damping at the service speed.
+    /// The kinematic mode at the service speed: hunting of a truck under a carbody at rest.
     design: Option<Complex64>,
 }
 
@@ -165,9 +165,7 @@ pub(super) fn draw(book: &Workbook, entry: &Entry) -> Figure {
         modes: follow(book, &speeds),
         numbers,
         speeds,
-        design: kinematic_at(book, case.service.speed)
-            .into_iter()
-            .min_by(|a, b| damping_ratio(*a).total_cmp(&damping_ratio(*b))),
+        design: kinematic_at(book, case.service.speed),
     };
     let locus = shown
         .numbered(shown.locus("c", true))
@@ -194,7 +192,8 @@ pub(super) fn draw(book: &Workbook, entry: &Entry) -> Figure {
     );
     figure.note(format!(
         "Modes that oscillate at the service speed, followed from there; those above {HIGHEST} Hz \
-         are in (d) only. Numbers along the locus are speeds in {}.",
+         are in (d) only. The design is a truck under a carbody at rest. Numbers along the locus are \
+         speeds in {}.",
         book.unit(Quantity::Speed).label
     ))
 }

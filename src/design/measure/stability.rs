@@ -7,7 +7,8 @@ use crate::{
         critical_speed::Stability,
         damping_range::{DampingMinimum, DampingRange, Place},
         gradients::modes,
-        lateral_modes::{LateralModes, LateralShape},
+        kinematic_mode::KinematicMode,
+        lateral_modes::LateralModes,
         mode::{Mode, damping_ratio_change},
     },
     index::Index,
@@ -35,7 +36,8 @@ impl Lateral<'_> {
                 }
                 Ok(pieces)
             }
-            Wanted::Index(index) => self.damping_at_speed(index == Index::KinematicDampingRatio),
+            Wanted::Index(Index::KinematicDampingRatio) => self.kinematic_damping(),
+            Wanted::Index(_) => self.damping_at_speed(),
         }
     }
 
@@ -75,7 +77,39 @@ impl Lateral<'_> {
         Ok(pieces.collect())
     }
 
-    fn damping_at_speed(&self, kinematic_only: bool) -> Measured {
+    /// Damping ratios of a truck's motions under a carbody at rest.
+    fn kinematic_damping(&self) -> Measured {
+        if self.poles.diverge() {
+            return Err(Failure::Diverges);
+        }
+        let speed = self.case.service.speed;
+        let mode = KinematicMode::new(&self.model, speed).map_err(|_| Failure::Eigenvalues)?;
+        let mode = mode.ok_or(Failure::Diverges)?;
+        if mode.damping_ratio >= 1.0 {
+            return Ok(vec![Piece {
+                gradient: self.graded.then(|| vec![0.0; self.tangents.len()]),
+                ..Piece::single(0, 1.0)
+            }]);
+        }
+        let gradients = if self.graded {
+            mode.derivatives(&self.model, &self.tangents, speed)
+        } else {
+            None
+        };
+        let motions = mode.motions.iter().enumerate();
+        let pieces = motions
+            .filter(|(_, motion)| motion.oscillates())
+            .map(|(k, motion)| Piece {
+                value: motion.damping_ratio(),
+                index: 0,
+                label: motion.frequency().ln(),
+                gradient: gradients.as_ref().map(|of| of[k].clone()),
+            });
+        Ok(pieces.collect())
+    }
+
+    /// Damping ratios of all modes at the operating speed.
+    fn damping_at_speed(&self) -> Measured {
         if self.poles.diverge() {
             return Err(Failure::Diverges);
         }
@@ -90,7 +124,6 @@ impl Lateral<'_> {
         };
         let wanted = modes.oscillatory.iter();
         let pieces: Vec<Piece> = wanted
-            .filter(|m| !kinematic_only || m.shape == LateralShape::Kinematic)
             .map(|m| Piece {
                 value: m.damping_ratio,
                 index: 0,

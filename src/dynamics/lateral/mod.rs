@@ -18,7 +18,7 @@ pub use coordinates::{Body, Coordinate, Coordinates};
 
 use std::sync::OnceLock;
 
-use super::{ForcedModel, LinearSystem, Output, Row, forced::Excitation};
+use super::{ForcedModel, LinearSystem, Output, Row, forced::Excitation, parts};
 use crate::{
     case::{Case, Crosslevel, Model, TruckRoll},
     track::Irregularity,
@@ -110,6 +110,12 @@ impl LateralModel {
             coordinates: q,
             forced,
         }
+    }
+
+    /// The leading truck under a carbody at rest, at `speed`, m/s: its coordinates' numbers in the model,
+    /// and its equations of motion, whose damping is that at `speed`. The trailing truck has the same.
+    pub fn one_truck(&self, speed: f64) -> (Vec<usize>, LinearSystem) {
+        parts::one_alike(&self.forced.system, speed)
     }
 }
 

@@ -15,7 +15,7 @@ use crate::{
 pub(super) fn hunting(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Evaluation) {
     let (vehicle, contact, speed) = (&case.vehicle, case.wheel_rail.contact(), case.service.speed);
     let conicity = contact.conicity;
-    let mode = evaluation.modes.kinematic().map(|m| m.frequency);
+    let mode = evaluation.modes.kinematic.as_ref().map(|m| m.frequency);
     let critical = evaluation.stability.critical_speed();
     let entry = |name: &str, equation, quantity, closed_form, full_model| CrossCheck {
         name: name.into(),
