@@ -46,7 +46,7 @@ fn is_objective(term: &Term) -> bool {
 
 /// Reasons that lie in the design rather than in the index.
 fn is_of_design(failure: Failure) -> bool {
-    matches!(failure, Failure::Unstable | Failure::Diverging)
+    matches!(failure, Failure::Unstable | Failure::Diverges)
 }
 
 /// The study without the terms that fail at every design looked at, for a reason that another
