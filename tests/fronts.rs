@@ -4,7 +4,7 @@ mod support;
 
 use bogie::{
     case::Case,
-    design::{pareto::pareto, search, study::Study},
+    design::{margin::value, pareto::pareto, search, study::Study},
     index::Index,
     optimize::{
         archive::{Archive, Silent},
@@ -148,4 +148,31 @@ fn no_point_is_a_bad_bargain() {
             assert!(better(a, b) <= 20.0 * better(b, a), "{a:?} {b:?}");
         }
     }
+}
+
+/// Forces in a curve are traded off only where the linear model covers it.
+#[test]
+fn forces_in_a_curve_are_traded_off_within_the_model() {
+    let source = |degree: f64| {
+        format!(
+            "[service]\ncurve = \"{degree} deg\"\n[vehicle]\nbase = \"prototype\"\n[design]\n\
+             primary_bending_stiffness = [\"2e5 lbf ft/rad\", \"1e7 lbf ft/rad\"]\n\
+             primary_lateral_stiffness = [\"2e5 lbf/ft\", \"5e6 lbf/ft\"]\n\
+             [pareto]\nindices = [\"wheel_l_over_v\", \"critical_speed\"]\npoints = 4\n"
+        )
+    };
+    let front = |degree: f64| {
+        let source = source(degree);
+        let spec = Spec::read(source.as_bytes()).unwrap_or_else(|_| panic!("{source}"));
+        pareto(&spec, &Archive::new(&Silent))
+    };
+    // Flange contact comes at 0.9° as the vehicle is given.
+    let gentle = front(1.0);
+    assert!(gentle.points.len() >= 3);
+    for point in &gentle.points {
+        let ratio = value(&point.case, Index::CurveLimitRatio).unwrap();
+        assert!(ratio <= 1.0 + 1e-4, "{ratio}");
+    }
+    // No design within the bounds runs this curve without flange contact.
+    assert_eq!(front(6.0).points.len(), 0);
 }

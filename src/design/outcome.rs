@@ -194,12 +194,12 @@ impl DesignResult {
         self.delivered == Delivered::AllAtOnce && self.joint.is_some()
     }
 
-    /// The stages that led to the design delivered.
+    /// The stages that led to the design delivered; if that is the one as given, those that led to
+    /// no better one.
     pub fn delivered_stages(&self) -> impl Iterator<Item = &StageResult> {
         let is = |delivered| self.delivered == delivered;
         let joint = self.joint.as_ref().filter(|_| is(Delivered::AllAtOnce));
-        let own = joint.is_none() && !is(Delivered::AsGiven);
-        let in_turn = self.stages.iter().filter(move |_| own);
+        let in_turn = self.stages.iter().filter(move |_| joint.is_none());
         in_turn.chain(joint.map(|joint| &joint.stage))
     }
 

@@ -129,9 +129,10 @@ struct Chosen {
 /// How a design stands to the demands.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Standing {
-    /// Largest relative shortfall; infinite where a demand has no value, or where a search that led to
-    /// the design found none with a performance.
+    /// Largest relative shortfall; infinite where a demand has no value.
     shortfall: f64,
+    /// Whether a search that led to the design found none with a performance.
+    failed: bool,
     /// Demands that the models do not cover at the design.
     not_assessed: usize,
 }
@@ -141,7 +142,8 @@ impl Standing {
         let gain = other.shortfall - self.shortfall;
         // Both may be infinite.
         let same = gain.is_nan() || gain.abs() <= MET;
-        gain > MET || same && self.not_assessed < other.not_assessed
+        let rest = |standing: &Self| (standing.failed, standing.not_assessed);
+        gain > MET || same && rest(self) < rest(other)
     }
 }
 
@@ -182,9 +184,8 @@ impl Procedure<'_> {
                 }
             }
         }
-        // Where a search found nothing with a performance, the design given has none either.
-        let found = standing.shortfall.is_finite();
-        if short && found && self.standing(given, []).is_better_than(&standing) {
+        let stages = chosen.stages.iter().map(|stage| &stage.result);
+        if short && self.standing(given, stages).is_better_than(&standing) {
             chosen.case = given.clone();
             chosen.delivered = Delivered::AsGiven;
         }
@@ -208,7 +209,8 @@ impl Procedure<'_> {
         let assessed = margins.iter().filter(is_assessed);
         let shortfall = assessed.map(Margin::shortfall).fold(0.0, f64::max);
         Standing {
-            shortfall: if failed { f64::INFINITY } else { shortfall },
+            shortfall,
+            failed,
             not_assessed: margins.iter().filter(|m| !is_assessed(m)).count(),
         }
     }

@@ -229,7 +229,7 @@ impl<'a> Tasks<'a> {
             }
         }
         if trade_off == TradeOff::StabilityCurving {
-            study = self.within_model(study, case);
+            study = self.within_model(study, case, &[]);
         }
         Task {
             trade_off: Some(trade_off),
@@ -239,20 +239,21 @@ impl<'a> Tasks<'a> {
     }
 
     /// The study with the demand that the linear model covers the service curve, in every condition in
-    /// which it asks for forces or strokes there.
-    fn within_model(&self, mut study: Study, case: &Case) -> Study {
+    /// which it, or one of the indices beside it, asks for forces or strokes there.
+    fn within_model(&self, mut study: Study, case: &Case, also: &[Index]) -> Study {
         for condition in 0..study.conditions() {
             let here = study
                 .terms()
                 .iter()
                 .filter(|term| term.condition == condition);
-            let mut asks = here.map(|term| term.index);
+            let mut asks = here.map(|term| term.index).chain(also.iter().copied());
             let asked = asks.any(Index::is_in_service_curve);
             let service = study.in_condition(case, condition).service;
             // The tightest curve without contact or slip is within the model without more.
             let is_given = service.curve.is_some() || service.cant_deficiency() != 0.0;
             let own = self.demands_in(condition).get(Index::CurveLimitRatio);
-            if asked && is_given && own.is_none_or(|own| own > WITHIN_MODEL) {
+            let own = own.is_some_and(|own| own <= WITHIN_MODEL);
+            if asked && is_given && !own && !also.contains(&Index::CurveLimitRatio) {
                 study = study.imply(condition, Index::CurveLimitRatio, WITHIN_MODEL);
             }
         }
@@ -298,7 +299,7 @@ impl<'a> Tasks<'a> {
         Task {
             trade_off: None,
             goal,
-            study: self.within_model(study, case),
+            study: self.within_model(study, case, &[]),
         }
     }
 
@@ -312,7 +313,7 @@ impl<'a> Tasks<'a> {
                 }
             }
         }
-        self.within_model(study, case)
+        self.within_model(study, case, drop)
     }
 }
 
