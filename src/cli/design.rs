@@ -56,7 +56,7 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
             "error: {}: {error}",
             call.run.source.spec.display()
         )),
-        error => failed(error),
+        error @ DesignError::Eigen(_) => failed(error),
     })?;
     let warnings = warnings(&result.case, &result.evaluation);
     deliver(

@@ -2,8 +2,8 @@
 //! give way.
 
 use super::{
-    compromise::Missed,
     measure::worst,
+    missed::Missed,
     search::{Searched, search},
     study::{Role, Study},
 };
@@ -56,9 +56,10 @@ pub fn conflict(searched: &Searched, seed: u64, archive: &Archive) -> Option<Con
         group: missed.group,
         share: missed.share,
         influenced: missed.influenced,
-        alone: match missed.influenced {
-            true => alone(searched, missed, x, seed, archive),
-            false => missed.reached,
+        alone: if missed.influenced {
+            alone(searched, missed, x, seed, archive)
+        } else {
+            missed.reached
         },
     };
     let demands: Vec<Opposed> = missed.iter().map(opposed).collect();

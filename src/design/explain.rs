@@ -2,15 +2,16 @@
 //! design is sensitive to.
 
 use super::{
+    price::{Price, prices, relative},
     search::Searched,
-    study::{Role, Study},
+    study::Study,
 };
 use crate::{
     index::Index,
     optimize::{
-        certificate::{Certificate, Curvature, HOLDS},
+        certificate::Curvature,
         local::Status,
-        problem::{Detail, Problem, Scale, Values, Variable, largest},
+        problem::{Detail, Problem, Values, Variable, largest},
         solve::Effort,
     },
     parameter::Parameter,
@@ -41,25 +42,6 @@ pub enum Bound {
     Lower,
     /// The upper end.
     Upper,
-}
-
-/// A demand that holds the design back.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Price {
-    /// On what.
-    pub index: Index,
-    /// In which condition; `None` for the nominal one.
-    pub condition: Option<String>,
-    /// The bound, SI.
-    pub bound: f64,
-    /// Change of the objective, scaled, per relative change of the bound; for damping ratios per
-    /// change of [`DAMPING`] times the ratio, as they are scaled.
-    pub multiplier: f64,
-    /// Change of the objective, scaled, per SI unit of the bound.
-    pub per_unit: f64,
-    /// Relative change of the index at the bound per relative change of each variable; `None` where
-    /// the bound is zero or the index jumps.
-    pub elasticities: Vec<Option<f64>>,
 }
 
 /// The single index behind an objective.
@@ -186,15 +168,6 @@ impl Explained {
     }
 }
 
-/// Change of a scaled coordinate per relative change of the value.
-fn relative(variable: &Variable, value: f64) -> f64 {
-    let [low, high] = variable.bounds;
-    match variable.scale {
-        Scale::Logarithmic => 1.0 / (high / low).ln(),
-        Scale::Linear => value / (high - low),
-    }
-}
-
 /// Pieces this close to the largest decide with it which way the objective goes.
 const TIED: f64 = 1e-6;
 
@@ -267,66 +240,4 @@ fn active(study: &Study, values: &Values) -> Vec<String> {
         format!("{name} ({})", conditions.collect::<Vec<_>>().join(", "))
     };
     active.into_iter().map(written).collect()
-}
-
-fn prices(searched: &Searched, values: &Values, certificate: &Certificate) -> Vec<Price> {
-    let Searched { study, solved, .. } = searched;
-    let x = &solved.point.x;
-    let mut prices: Vec<Price> = Vec::new();
-    let held = values
-        .constraints
-        .iter()
-        .zip(&certificate.constraint_multipliers)
-        .zip(&certificate.constraint_gradients);
-    for ((piece, &multiplier), gradient) in held {
-        if multiplier < HOLDS {
-            continue;
-        }
-        let term = &study.terms()[study.term_of(piece.index)];
-        let Role::Constraint { bound } = term.role else {
-            continue;
-        };
-        let condition = study.condition_name(term.condition).map(str::to_owned);
-        // The bound of a missed demand is none that was asked for.
-        let is_missed = |m: &super::compromise::Missed| {
-            m.index == term.index && m.condition == condition && !m.met()
-        };
-        if searched.missed.iter().any(is_missed) {
-            continue;
-        }
-        // An evaluation that fails beside the design tells no price.
-        let Ok(slope) = study.slope_of_bound(piece, x) else {
-            continue;
-        };
-        let per_unit = multiplier * slope;
-        // The critical speed is kept by a damping ratio: its price is that of the speed.
-        let multiplier = match term.index {
-            Index::CriticalSpeed => per_unit * bound,
-            _ => multiplier,
-        };
-        let pairs = study.variables().iter().zip(x).zip(gradient);
-        // c(v, bound) = 0 gives dv = −∂c/∂x dx / (∂c/∂bound).
-        let elasticities: Vec<Option<f64>> = pairs
-            .map(|((variable, &x), g)| -g / slope * relative(variable, variable.value(x)) / bound)
-            .map(|elasticity| elasticity.is_finite().then_some(elasticity))
-            .take(study.parameters().len())
-            .collect();
-        let known = prices
-            .iter_mut()
-            .find(|p| p.index == term.index && p.condition == condition);
-        if let Some(known) = known {
-            known.per_unit += per_unit;
-            known.multiplier += multiplier;
-        } else {
-            prices.push(Price {
-                index: term.index,
-                condition,
-                bound,
-                multiplier,
-                per_unit,
-                elasticities,
-            });
-        }
-    }
-    prices
 }

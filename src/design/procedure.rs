@@ -9,10 +9,11 @@ use std::time::Instant;
 
 use super::{
     conflict::conflict,
-    margin::{Margin, Verdict, margins, worst_value},
+    margin::{Margin, margins, worst_value},
     outcome::{Compared, Delivered, DesignResult, Joint, StageResult, half_kalker, in_conditions},
     search::Searched,
     stage::{self, Stage, StageInput},
+    standing::Standing,
     study::Role,
     tasks::Tasks,
 };
@@ -20,7 +21,7 @@ use crate::{
     case::Case,
     dynamics::EigenError,
     evaluate::Evaluation,
-    index::{Index, MET},
+    index::Index,
     optimize::{
         archive::{Archive, Stop},
         problem::Problem,
@@ -126,27 +127,6 @@ struct Chosen {
     joint: Option<(Joint, Searched)>,
 }
 
-/// How a design stands to the demands.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Standing {
-    /// Largest relative shortfall; infinite where a demand has no value.
-    shortfall: f64,
-    /// Whether a search that led to the design found none with a performance.
-    failed: bool,
-    /// Demands that the models do not cover at the design.
-    not_assessed: usize,
-}
-
-impl Standing {
-    fn is_better_than(&self, other: &Self) -> bool {
-        let gain = other.shortfall - self.shortfall;
-        // Both may be infinite.
-        let same = gain.is_nan() || gain.abs() <= MET;
-        let rest = |standing: &Self| (standing.failed, standing.not_assessed);
-        gain > MET || same && rest(self) < rest(other)
-    }
-}
-
 impl Procedure<'_> {
     fn run<T: Send>(
         &self,
@@ -204,15 +184,7 @@ impl Procedure<'_> {
         stages: impl IntoIterator<Item = &'r StageResult>,
     ) -> Standing {
         let failed = stages.into_iter().any(|stage| stage.failure().is_some());
-        let margins = self.margins(case);
-        let is_assessed = |margin: &&Margin| margin.verdict() != Verdict::NotAssessed;
-        let assessed = margins.iter().filter(is_assessed);
-        let shortfall = assessed.map(Margin::shortfall).fold(0.0, f64::max);
-        Standing {
-            shortfall,
-            failed,
-            not_assessed: margins.iter().filter(|m| !is_assessed(m)).count(),
-        }
+        Standing::new(&self.margins(case), failed)
     }
 
     fn joint_only(&self, given: &Case) -> Chosen {

@@ -1,8 +1,9 @@
 //! Solving a study; where its demands cannot all be met, the best compromise.
 
 use super::{
-    compromise::{Missed, compromise, feasible},
+    compromise::{compromise, feasible},
     lifted::{Lifted, solve_lifted},
+    missed::Missed,
     recovery::recover,
     study::Study,
 };

@@ -2,26 +2,23 @@
 //! or several operating conditions, as a problem for the optimiser.
 
 mod chain;
+mod epigraph;
 mod problem;
+mod scaling;
 mod term;
 
 pub use term::{Role, Term};
 
 use sha2::{Digest, Sha256};
 
-use super::measure::{Wanted, measure, piece_name};
-use term::DAMPING;
+use super::measure::{Wanted, piece_name};
 
 use crate::{
     case::Case,
-    index::{Index, Scale, Sense},
-    optimize::{
-        follow,
-        problem::{self as optimiser, Failure, Piece, Variable},
-    },
+    index::Index,
+    optimize::problem::{self as optimiser, Variable},
     parameter::Parameter,
     spec::{Condition, Interval},
-    units::Quantity,
 };
 
 /// How a parameter that does not vary follows from the rest.
@@ -73,58 +70,6 @@ impl Study {
             terms: Vec::new(),
             is_lifted: false,
         }
-    }
-
-    /// The same study with the critical speed as an epigraph variable.
-    ///
-    /// ```math
-    /// maximise V_cr(x)   ⟺   maximise v   subject to   ζ(x, V) ≥ 0 for all V ≤ v
-    /// ```
-    ///
-    /// The critical speed jumps where an instability is born within the range; the damping over
-    /// the range does not. `None` if the critical speed is no objective.
-    pub fn lifted(&self) -> Option<Self> {
-        self.terms.iter().find(|t| t.is_speed_objective())?;
-        let mut study = self.clone();
-        study.is_lifted = true;
-        study.variables.push(Variable {
-            name: "critical speed",
-            symbol: "V_cr",
-            quantity: Quantity::Speed,
-            bounds: self.base.model.speed_range,
-            scale: optimiser::Scale::Logarithmic,
-        });
-        Some(study)
-    }
-
-    /// The study without the epigraph variable of [`Study::lifted`].
-    #[must_use]
-    pub fn grounded(&self) -> Self {
-        let mut study = self.clone();
-        study.is_lifted = false;
-        study.variables.truncate(study.parameters.len());
-        study
-    }
-
-    /// Scaled coordinates of the lifted study for a design of this one: a critical speed a little
-    /// below what it has.
-    ///
-    /// # Errors
-    ///
-    /// [`Failure`] as of any measurement.
-    pub fn lift(&self, x: &[f64]) -> Result<Vec<f64>, Failure> {
-        const BELOW: f64 = 1.0 - 1e-4;
-        let case = self.design(x);
-        let mut least = self.base.model.speed_range[1];
-        for term in self.terms.iter().filter(|t| t.is_speed_objective()) {
-            let case = self.in_condition(&case, term.condition);
-            let pieces = measure(&case, &[Wanted::Index(Index::CriticalSpeed)])?.remove(0);
-            least = pieces.iter().map(|p| p.value).fold(least, f64::min);
-        }
-        let [low, high] = self.base.model.speed_range;
-        let mut lifted = x[..self.parameters.len()].to_vec();
-        lifted.push(((BELOW * least / low).ln() / (high / low).ln()).clamp(0.0, 1.0));
-        Ok(lifted)
     }
 
     /// Lets a parameter vary between bounds, on a logarithmic scale unless a bound is zero or the
@@ -356,12 +301,6 @@ impl Study {
         case
     }
 
-    /// The lifted speed at scaled coordinates `x`, m/s.
-    fn speed(&self, x: &[f64]) -> Option<f64> {
-        let at = self.parameters.len();
-        self.is_lifted.then(|| self.variables[at].value(x[at]))
-    }
-
     /// A case in a condition.
     pub fn in_condition(&self, case: &Case, condition: usize) -> Case {
         match &self.conditions[condition] {
@@ -381,64 +320,6 @@ impl Study {
     /// The term to which a piece of objective or constraint belongs.
     pub fn term_of(&self, piece: usize) -> usize {
         piece / PIECES
-    }
-
-    /// Change of a term's constraint value per change of its bound, at scaled coordinates `x`.
-    ///
-    /// # Errors
-    ///
-    /// [`Failure`] as of any measurement: for the critical speed damping is looked up a little
-    /// faster.
-    pub fn slope_of_bound(&self, piece: &Piece, x: &[f64]) -> Result<f64, Failure> {
-        let term = &self.terms[self.term_of(piece.index)];
-        let Role::Constraint { bound } = term.role else {
-            return Ok(0.0);
-        };
-        if term.index == Index::CriticalSpeed {
-            const STEP: f64 = 1e-4;
-            let case = self.in_condition(&self.design(x), term.condition);
-            let at = |speed: f64| {
-                let below = AMPLE;
-                Ok(measure(&case, &[Wanted::DampingTo { speed, below }])?.remove(0))
-            };
-            let (now, faster) = (at(bound)?, at(bound * (1.0 + STEP))?);
-            let same = |p: &&Piece| p.index == piece.index % PIECES;
-            let far = |p: &Piece| (term.scaled(p.value) - piece.value).abs();
-            let own = now
-                .iter()
-                .filter(same)
-                .min_by(|a, b| far(a).total_cmp(&far(b)));
-            let change = own.and_then(|own| {
-                let k = now.iter().position(|p| p == own)?;
-                Some(-DAMPING * (follow(&now, k, &faster)? - own.value))
-            });
-            return Ok(change.map_or(0.0, |change| change / (STEP * bound)));
-        }
-        Ok(match (term.index.scale(), term.index.sense()) {
-            (Scale::Linear, _) => DAMPING,
-            (Scale::Logarithmic, Sense::AtLeast) => 1.0 / bound,
-            (Scale::Logarithmic, Sense::AtMost) => -1.0 / bound,
-        })
-    }
-
-    /// Value of a term at which objective pieces come out as `value`, and its derivative by that,
-    /// SI. `None` if the term is no objective.
-    pub fn index_at(&self, term: &Term, value: f64) -> Option<[f64; 2]> {
-        let Role::Objective { weight, origin, .. } = term.role else {
-            return None;
-        };
-        let worse = value / weight;
-        Some(match (term.index.scale(), term.index.sense()) {
-            (Scale::Linear, _) => [origin - worse / DAMPING, -1.0 / (DAMPING * weight)],
-            (Scale::Logarithmic, Sense::AtLeast) => {
-                let index = origin * (-worse).exp();
-                [index, -index / weight]
-            }
-            (Scale::Logarithmic, Sense::AtMost) => {
-                let index = origin * worse.exp();
-                [index, index / weight]
-            }
-        })
     }
 }
 

@@ -9,9 +9,10 @@ use super::{
 };
 use crate::{
     design::{
-        explain::{Explained, Price},
+        explain::Explained,
         margin::{Margin, Verdict},
         outcome::DesignResult,
+        price::Price,
     },
     index::{Index, Scale, Sense},
     optimize::{certificate::Curvature, local::Status, problem::Failure},

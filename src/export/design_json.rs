@@ -8,10 +8,11 @@ use serde_json::{Map, Value, json};
 use super::{evaluation_json, origin::sign, status};
 use crate::{
     design::{
-        explain::{Bound, Chosen, Explained, Price},
+        explain::{Bound, Chosen, Explained},
         form::form,
         margin::{Margin, Verdict},
         outcome::{Delivered, DesignResult, Profile, StageResult},
+        price::Price,
         sensitivity::Sensitivity,
     },
     evaluate::{checks::checks, curving::CurveStatus},

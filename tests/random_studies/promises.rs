@@ -289,7 +289,7 @@ fn wrong_statuses(result: &DesignResult) -> Vec<String> {
                 wrong("optimal without a certificate", status);
             }
             Status::Optimal if stage.violation.is_none_or(|v| v > 1e-4) => {
-                wrong("optimal with a violation", status)
+                wrong("optimal with a violation", status);
             }
             _ => {}
         }

@@ -44,9 +44,12 @@ impl Vertical<'_> {
         let by: Vec<Option<Vec<f64>>> = constants
             .parameters()
             .zip(moves)
-            .map(|(constant, moves)| match moves {
-                true => derivative(index, self.case, &found, constant),
-                false => Some(vec![0.0; found.len()]),
+            .map(|(constant, moves)| {
+                if moves {
+                    derivative(index, self.case, &found, constant)
+                } else {
+                    Some(vec![0.0; found.len()])
+                }
             })
             .collect();
         for (k, piece) in found.iter_mut().enumerate() {

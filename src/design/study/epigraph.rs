@@ -1,0 +1,69 @@
+//! The critical speed as an epigraph variable of a study.
+
+use super::Study;
+use crate::{
+    design::measure::{Wanted, measure},
+    index::Index,
+    optimize::problem::{Failure, Scale, Variable},
+    units::Quantity,
+};
+
+impl Study {
+    /// The same study with the critical speed as an epigraph variable.
+    ///
+    /// ```math
+    /// maximise V_cr(x)   ⟺   maximise v   subject to   ζ(x, V) ≥ 0 for all V ≤ v
+    /// ```
+    ///
+    /// The critical speed jumps where an instability is born within the range; the damping over
+    /// the range does not. `None` if the critical speed is no objective.
+    pub fn lifted(&self) -> Option<Self> {
+        self.terms.iter().find(|t| t.is_speed_objective())?;
+        let mut study = self.clone();
+        study.is_lifted = true;
+        study.variables.push(Variable {
+            name: "critical speed",
+            symbol: "V_cr",
+            quantity: Quantity::Speed,
+            bounds: self.base.model.speed_range,
+            scale: Scale::Logarithmic,
+        });
+        Some(study)
+    }
+
+    /// The study without the epigraph variable of [`Study::lifted`].
+    #[must_use]
+    pub fn grounded(&self) -> Self {
+        let mut study = self.clone();
+        study.is_lifted = false;
+        study.variables.truncate(study.parameters.len());
+        study
+    }
+
+    /// Scaled coordinates of the lifted study for a design of this one: a critical speed a little
+    /// below what it has.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`] as of any measurement.
+    pub fn lift(&self, x: &[f64]) -> Result<Vec<f64>, Failure> {
+        const BELOW: f64 = 1.0 - 1e-4;
+        let case = self.design(x);
+        let mut least = self.base.model.speed_range[1];
+        for term in self.terms.iter().filter(|t| t.is_speed_objective()) {
+            let case = self.in_condition(&case, term.condition);
+            let pieces = measure(&case, &[Wanted::Index(Index::CriticalSpeed)])?.remove(0);
+            least = pieces.iter().map(|p| p.value).fold(least, f64::min);
+        }
+        let [low, high] = self.base.model.speed_range;
+        let mut lifted = x[..self.parameters.len()].to_vec();
+        lifted.push(((BELOW * least / low).ln() / (high / low).ln()).clamp(0.0, 1.0));
+        Ok(lifted)
+    }
+
+    /// The lifted speed at scaled coordinates `x`, m/s.
+    pub(super) fn speed(&self, x: &[f64]) -> Option<f64> {
+        let at = self.parameters.len();
+        self.is_lifted.then(|| self.variables[at].value(x[at]))
+    }
+}
