@@ -345,7 +345,12 @@ impl Procedure<'_> {
             conflict(searched, spec.design.seed, self.archive)
         });
         let mut stages: Vec<StageResult> = stages.into_iter().map(|s| s.result).collect();
-        for stage in &mut stages {
+        let mut joint = joint.map(|(joint, _)| joint);
+        // One profile is no choice.
+        for stage in stages
+            .iter_mut()
+            .chain(joint.as_mut().map(|joint| &mut joint.stage))
+        {
             if stage.profiles.len() < 2 {
                 stage.profiles.clear();
             }
@@ -360,7 +365,7 @@ impl Procedure<'_> {
             stages,
             rounds,
             settled,
-            joint: joint.map(|(joint, _)| joint),
+            joint,
             margins,
             conflict,
             effort: Effort::default(),
