@@ -232,6 +232,38 @@ fn what_is_shown_is_the_index() {
     }
 }
 
+/// A truck with a relaxation slower than its hunting: what grows is shown, and never as damped.
+#[test]
+fn hunting_is_not_hidden_by_slower_motions() {
+    let mut case = Case::prototype();
+    case.service.speed = 65.0;
+    case.wheel_rail.conicity = 0.2;
+    let (p, s) = (
+        &mut case.vehicle.suspension.primary,
+        &mut case.vehicle.suspension.secondary,
+    );
+    (p.longitudinal_stiffness, p.lateral_stiffness) = (30e6, 1e6);
+    (s.lateral_stiffness, s.lateral_damping) = (500e3, 200e3);
+    s.yaw_stiffness = 1e6;
+    // -0.0773 at 6.976 Hz by the eigenvalues of the truck alone, from an independent program.
+    assert!((index(&case).unwrap() + 0.0773).abs() < 1e-4);
+    // The sign is that of the least damped motion of the truck, whatever the vehicle.
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    let mut hunting = 0;
+    for _ in 0..200 {
+        let mut case = random_vehicle(&mut rng, 3.0);
+        case.service.speed *= 2.0;
+        let model = LateralModel::new(&case);
+        let Ok(Some(mode)) = KinematicMode::new(&model, &case, case.service.speed) else {
+            continue;
+        };
+        let grows = mode.motions.iter().any(|m| m.eigenvalue.re > 0.0);
+        assert_eq!(mode.damping_ratio < 0.0, grows);
+        hunting += usize::from(grows);
+    }
+    assert!(hunting > 20, "{hunting}");
+}
+
 /// Cylinders do not hunt, they creep back: a damping ratio of one, and no slope.
 #[test]
 fn overdamped_hunting() {
@@ -241,7 +273,7 @@ fn overdamped_hunting() {
     // Springs that bring yaw back faster than lateral motion: at like rates both go on as an oscillation.
     case.vehicle.suspension.secondary.yaw_stiffness *= 4.0;
     let model = LateralModel::new(&case);
-    let mode = KinematicMode::new(&model, case.service.speed)
+    let mode = KinematicMode::new(&model, &case, case.service.speed)
         .unwrap()
         .unwrap();
     assert!(!mode.motions[0].oscillates(), "{:?}", mode.motions);
@@ -263,7 +295,7 @@ fn a_carbody_at_rest_is_a_heavy_one() {
     let mut case = Case::prototype();
     let model = LateralModel::new(&case);
     let speed = case.service.speed;
-    let mode = KinematicMode::new(&model, speed).unwrap().unwrap();
+    let mode = KinematicMode::new(&model, &case, speed).unwrap().unwrap();
     case.vehicle.carbody.roll_inertia *= 1e8;
     case.vehicle.carbody.yaw_inertia *= 1e8;
     let mut heavy = LateralModel::new(&case);

@@ -5,9 +5,10 @@ mod support;
 use bogie::{
     case::Case,
     design::{
-        margin::{Margin, Verdict, value},
+        margin::{Margin, Verdict, margins, value},
         outcome::{Delivered, DesignResult},
         procedure::design,
+        sweep::Sweep,
     },
     export::status,
     index::Index,
@@ -334,4 +335,89 @@ fn stops_see_the_curve() {
         .find(|m| m.index == Index::SecondaryLateralStrokeInCurve);
     assert_eq!(margin.unwrap().verdict(), Verdict::Met);
     assert!(in_curve(&with) < 1.01 * stops);
+}
+
+/// The prototype at 130 mph with its primary suspension open, and what is added.
+fn open_primary(added: &str) -> Spec {
+    let source = format!(
+        "[service]\nspeed = \"130 mph\"\n{}\n[vehicle]\nbase = \"prototype\"\n[design]\n\
+         primary_bending_stiffness = [\"1e5 lbf ft/rad\", \"2e7 lbf ft/rad\"]\n\
+         primary_lateral_stiffness = [\"4e4 lbf/ft\", \"5e6 lbf/ft\"]\n{added}",
+        if added.contains("adhesion_used") {
+            "curve = \"1 deg\""
+        } else {
+            ""
+        },
+    );
+    Spec::read(source.as_bytes()).unwrap_or_else(|_| panic!("{source}"))
+}
+
+/// A demand that nothing can change leaves all others as well met as without it.
+#[test]
+fn a_hopeless_demand_does_not_hide_others() {
+    let spec = open_primary(
+        "secondary_lateral_frequency = [\"0.7 Hz\", \"1.5 Hz\"]\n\
+         secondary_lateral_damping_ratio = [0.1, 0.6]\n\
+         [requirements]\ncritical_speed = \"200 mph\"\nlateral_acceleration = \"0.06 g\"\n\
+         vertical_acceleration = \"0.02 g\"\n[limits]\nsecondary_lateral_stroke = \"1.5 in\"\n",
+    );
+    let result = run(&spec);
+    let unmet: Vec<Index> = result.unmet().map(|margin| margin.index).collect();
+    assert_eq!(unmet, [Index::VerticalAcceleration]);
+    assert_eq!(result.delivered, Delivered::AllAtOnce);
+}
+
+/// A design that is assessed and misses a little is better than one that cannot be assessed.
+#[test]
+fn what_can_be_assessed_is_preferred() {
+    let spec = open_primary(
+        "[requirements]\ncritical_speed = \"148 mph\"\n[limits]\nadhesion_used = 0.28\n",
+    );
+    let given = margins(&spec.case, &spec.demands, &spec.conditions);
+    assert!(
+        given
+            .iter()
+            .any(|margin| margin.verdict() == Verdict::NotAssessed)
+    );
+    let result = run(&spec);
+    assert_eq!(status::of_run(&result), "infeasible");
+    // Forces within the model are weighed against the critical speed: the smaller of the two margins is
+    // as large as can be, so that both are missed alike.
+    let short: Vec<f64> = result.margins.iter().map(Margin::shortfall).collect();
+    let logarithmic = [-(1.0 - short[0]).ln(), (1.0 + short[1]).ln()];
+    assert_ratio("shortfalls", logarithmic[0], logarithmic[1], 0.01);
+    assert!(logarithmic[0] > 0.01);
+    // A sweep has designs at most as good.
+    let sweep = Sweep::new(&spec, &[Index::CriticalSpeed, Index::AdhesionUsed], 1).unwrap();
+    for design in sweep.designs(1..400) {
+        if let [Ok(speed), Ok(adhesion)] = design.values[..] {
+            let speed_short = (spec.demands.get(Index::CriticalSpeed).unwrap() / speed).ln();
+            let worst = speed_short.max((adhesion / 0.28).ln());
+            assert!(worst > logarithmic[0] - 1e-3, "{worst} {logarithmic:?}");
+        }
+    }
+}
+
+/// Conditions that share a bound share its price.
+#[test]
+fn the_price_of_a_bound_holds_for_all_conditions_that_share_it() {
+    let source = |mph: f64| {
+        format!(
+            "[requirements]\ncritical_speed = \"{mph} mph\"\n\
+             [conditions.a]\npassenger.longitudinal_offset = \"7 m\"\n\
+             [conditions.b]\npassenger.longitudinal_offset = \"8 m\"\n"
+        )
+    };
+    let degree = |result: &DesignResult| value(&result.case, Index::DegreeCurve).unwrap();
+    let result = run(&open_primary(&source(150.0)));
+    let explained = &result.stages[0].explained;
+    let prices: Vec<_> = explained.prices.iter().collect();
+    let [price] = prices[..] else {
+        panic!("{prices:?}")
+    };
+    assert_eq!(price.conditions.len(), 3);
+    let dearer = degree(&run(&open_primary(&source(150.1))));
+    let change = (dearer - degree(&result)) / (0.1 * support::MPH);
+    // Over a tenth of a mile per hour the curve is straight to a hundredth.
+    assert_ratio("price", explained.price(price), change, 0.01);
 }

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use bogie::{
-    evaluate::{Evaluation, ride::NoRide, warnings::warnings},
+    evaluate::{Evaluation, warnings::warnings},
     export::{self, curve::Curving, evaluation_json, modes, origin::sign, psd::Spectra},
     spec::{STARTER, Spec, schema},
     track::{MAX_DEGREE, SUPERELEVATION_BASE},
@@ -113,8 +113,8 @@ pub fn psd(call: &Psd) -> Result<Done, Failure> {
         ("lateral", &spectra.lateral),
         ("vertical", &spectra.vertical),
     ] {
-        if columns.is_none() {
-            output::say(format_args!("no {model} spectra: {}", NoRide::Unstable));
+        if let Err(reason) = columns {
+            output::say(format_args!("no {model} spectra: {reason}"));
         }
     }
     if call.csv {

@@ -14,7 +14,8 @@
 //!
 //! Forces and strokes in a curve are assessed only where the linear model covers the curve. Where
 //! they are asked for, the other demands come first; then the curve is brought as far within the
-//! model as they allow; then, if it is within, the demands on forces and strokes follow.
+//! model as they allow. If it is within, the demands on forces and strokes count as the others do, and
+//! all are weighed together; if not, they are left out.
 
 use super::{
     lifted::{Lifted, solve_lifted},
@@ -26,7 +27,7 @@ use crate::optimize::{
     certificate::HOLDS,
     local::Status,
     problem::{Point, Problem, Values, largest},
-    solve::{NoDesign, Solved, Start},
+    solve::{Effort, NoDesign, Solved, Start},
 };
 
 /// The best compromise of a study, from a solution that misses some of its demands: the solution of
@@ -42,34 +43,32 @@ pub fn compromise(
     archive: &Archive,
 ) -> Result<(Lifted, Vec<Missed>), NoDesign> {
     let n = study.parameters().len();
-    let mut x = found.point.x[..n].to_vec();
-    let mut missed: Vec<Missed> = Vec::new();
-    let mut effort = found.effort.clone();
-    let mut ranks: Vec<usize> = study.demands().map(|i| study.terms()[i].rank()).collect();
-    ranks.sort_unstable();
-    ranks.dedup();
-    let mut group = 0;
-    for rank in ranks {
-        while archive.stopped().is_none() {
-            let (open, kept) = open_shortfall(study, rank, &missed);
-            if kept.is_empty() {
-                break;
-            }
-            let from = start.clone().with(vec![x.clone()]).thoroughly();
-            let closest = solve_lifted(&open, &from, archive)?;
-            effort.add(&closest.solved.effort);
-            x = closest.solved.point.x[..n].to_vec();
-            let held = match &closest.solved.point.values {
-                Ok(values) if values.objective() > 0.0 => holding(&closest, values, kept.len()),
-                _ => break,
-            };
-            let reached = Reached::new(&open, &x);
-            let shares = held.into_iter();
-            missed
-                .extend(shares.map(|(k, share)| reached.missed(study, [kept[k], k], group, share)));
-            group += 1;
-        }
+    let mut descent = Descent {
+        study,
+        start,
+        archive,
+        x: found.point.x[..n].to_vec(),
+        missed: Vec::new(),
+        effort: found.effort.clone(),
+    };
+    let mut within = true;
+    if study.demands().any(|i| study.terms()[i].rank() == COVERAGE) {
+        descent.reduce(&[PLAIN], &[])?;
+        descent.reduce(&[COVERAGE], &[PLAIN])?;
+        let is_outside = |m: &Missed| study.terms()[m.term].implied && !m.met();
+        within = !descent.missed.iter().any(is_outside);
     }
+    if within {
+        // The curve can be covered: forces and strokes in it count as the rest do.
+        descent.missed.clear();
+        descent.reduce(&[PLAIN, IN_CURVE], &[COVERAGE])?;
+    }
+    let Descent {
+        x,
+        mut missed,
+        effort,
+        ..
+    } = descent;
     let mut last = best_of_relaxed(&relax(study, &missed), start, x, archive)?;
     last.solved.effort.add(&effort);
     for missed in &mut missed {
@@ -85,6 +84,51 @@ pub fn compromise(
         last.solved.status = Status::Infeasible;
     }
     Ok((last, missed))
+}
+
+/// Ranks of demands, see [`Term::rank`].
+const PLAIN: usize = 0;
+const COVERAGE: usize = 1;
+const IN_CURVE: usize = 2;
+
+/// The lexicographic minimax on its way.
+struct Descent<'a> {
+    study: &'a Study,
+    start: &'a Start,
+    archive: &'a Archive<'a>,
+    /// Scaled coordinates of the design that it has come to.
+    x: Vec<f64>,
+    missed: Vec<Missed>,
+    effort: Effort,
+}
+
+impl Descent<'_> {
+    /// Makes the violations of the demands of some ranks as small as can be, the largest first, while
+    /// those of other ranks are kept.
+    fn reduce(&mut self, ranks: &[usize], kept: &[usize]) -> Result<(), NoDesign> {
+        let n = self.x.len();
+        while self.archive.stopped().is_none() {
+            let (open, terms) = open_shortfall(self.study, ranks, kept, &self.missed);
+            if terms.is_empty() {
+                break;
+            }
+            let from = self.start.clone().with(vec![self.x.clone()]);
+            let closest = solve_lifted(&open, &from.thoroughly(), self.archive)?;
+            self.effort.add(&closest.solved.effort);
+            self.x = closest.solved.point.x[..n].to_vec();
+            let held = match &closest.solved.point.values {
+                Ok(values) if values.objective() > 0.0 => holding(&closest, values, terms.len()),
+                _ => break,
+            };
+            let group = self.missed.last().map_or(0, |missed| missed.group + 1);
+            let reached = Reached::new(&open, &self.x);
+            let missed = held.into_iter();
+            let missed =
+                missed.map(|(k, share)| reached.missed(self.study, [terms[k], k], group, share));
+            self.missed.extend(missed);
+        }
+        Ok(())
+    }
 }
 
 /// Scaled coordinates of a design that meets all demands of a study, sought from one that does not;
@@ -152,23 +196,28 @@ fn as_objective(term: &Term) -> Role {
     }
 }
 
-/// The demands of a rank that are not missed as the objective, those of lower rank as constraints,
-/// missed ones with relaxed bounds; and the numbers that the terms of the objective, which come
-/// first, have in the study.
-fn open_shortfall(study: &Study, rank: usize, missed: &[Missed]) -> (Study, Vec<usize>) {
-    let role = |i: usize| missed.iter().find(|m| m.term == i);
-    let is_open = |i: usize| {
-        let term = &study.terms()[i];
-        term.rank() == rank && role(i).is_none() && !is_void(study, term, missed)
+/// The demands of some ranks that are not missed as the objective; those of other ranks, and missed
+/// ones with relaxed bounds, as constraints; and the numbers that the terms of the objective, which
+/// come first, have in the study.
+fn open_shortfall(
+    study: &Study,
+    ranks: &[usize],
+    kept: &[usize],
+    missed: &[Missed],
+) -> (Study, Vec<usize>) {
+    let known = |i: usize| missed.iter().find(|m| m.term == i);
+    let is_open = |i: &usize| {
+        let term = &study.terms()[*i];
+        ranks.contains(&term.rank()) && known(*i).is_none() && !is_void(study, term, missed)
     };
-    let kept: Vec<usize> = study.demands().filter(|i| is_open(*i)).collect();
-    let open = study.with_roles(|i, term| kept.contains(&i).then(|| as_objective(term)));
-    let kept_bounds = study.with_roles(|i, term| match role(i) {
+    let terms: Vec<usize> = study.demands().filter(is_open).collect();
+    let open = study.with_roles(|i, term| terms.contains(&i).then(|| as_objective(term)));
+    let bounds = study.with_roles(|i, term| match known(i) {
         _ if matches!(term.role, Role::Objective { .. }) => None,
         Some(missed) => relaxed_role(missed),
-        None => (term.rank() < rank).then_some(term.role),
+        None => kept.contains(&term.rank()).then_some(term.role),
     });
-    (open.and_terms_of(&kept_bounds), kept)
+    (open.and_terms_of(&bounds), terms)
 }
 
 /// Whether the model does not cover a term: it is a force or stroke in a curve that is not brought
@@ -201,7 +250,9 @@ fn holding(closest: &Lifted, values: &Values, terms: usize) -> Vec<(usize, f64)>
     /// Without multipliers, as where no variable is left: shortfalls within this of the largest.
     const NEAR: f64 = 1e-3;
     let certificate = closest.solved.certificate.as_ref();
-    let certificate = certificate.filter(|_| !closest.study.parameters().is_empty());
+    let certificate = certificate.filter(|certificate| {
+        !closest.study.parameters().is_empty() && certificate.is_of(&closest.solved.point)
+    });
     let mut shares = vec![0.0; terms];
     for (group, pieces) in values.objectives.iter().enumerate() {
         let worst = largest(pieces);

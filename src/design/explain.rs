@@ -74,6 +74,8 @@ pub struct Explained {
     pub curvature: Option<Curvature>,
     /// Largest relative violation of a demand; `None` if the design has no performance.
     pub violation: Option<f64>,
+    /// Whether bounds of missed demands are relaxed: multipliers there tell no price and no gain.
+    pub is_relaxed: bool,
     /// Limits that hold the design back, by name.
     pub active: Vec<String>,
     /// Demands that hold it back, with their prices.
@@ -101,6 +103,7 @@ impl Explained {
             kkt_residual: certificate.map(|c| c.kkt_residual),
             curvature: certificate.and_then(|c| c.curvature),
             violation: values.map(|v| v.violation().max(searched.violation())),
+            is_relaxed: !searched.missed.is_empty(),
             active: Vec::new(),
             prices: Vec::new(),
             effort: solved.effort.clone(),

@@ -23,6 +23,8 @@ pub struct Margin {
     /// Status of the curve of the service, where the model does not cover it and the demand is on a
     /// force or stroke there.
     pub curve: Option<CurveStatus>,
+    /// Largest ratio to flange contact or slip there, if it is known.
+    pub curve_ratio: Option<f64>,
 }
 
 /// How a design stands to a demand.
@@ -59,12 +61,16 @@ impl Margin {
     }
 
     /// How far the value reached falls short of the bound, relative, or as it is for damping ratios;
-    /// 0 if the demand is met, infinite if it has no value.
+    /// 0 if the demand is met. A demand that is not assessed counts as further off than any value, the
+    /// more the further the curve is outside the model; one without a value as infinitely far.
     pub fn shortfall(&self) -> f64 {
-        match &self.reached {
-            Ok(_) if self.met() => 0.0,
-            Ok(reached) => self.demand().shortfall(*reached),
-            Err(_) => f64::INFINITY,
+        /// More than any value falls short by.
+        const NOT_ASSESSED: f64 = 1e9;
+        match (&self.reached, self.curve_ratio) {
+            (Ok(_), _) if self.met() => 0.0,
+            (Ok(reached), _) => self.demand().shortfall(*reached).min(NOT_ASSESSED),
+            (Err(_), Some(ratio)) => NOT_ASSESSED * (1.0 + ratio),
+            (Err(_), None) => f64::INFINITY,
         }
     }
 
@@ -126,7 +132,10 @@ pub fn margins(case: &Case, demands: &Demands, conditions: &[Condition]) -> Vec<
                         Err(failure) if failure.is_not_covered() => ServiceCurve::of(&case).ok(),
                         _ => None,
                     };
+                    let ratios = curve.as_ref().and_then(|curve| curve.state.as_ref());
+                    let ratios = ratios.map(|state| state.limit_ratios);
                     Margin {
+                        curve_ratio: ratios.map(|all| all.into_iter().fold(0.0, f64::max)),
                         index: demand.index,
                         condition: condition.clone(),
                         required: demand.bound,

@@ -1,6 +1,6 @@
 //! What the demands that hold a design back cost.
 
-use super::{missed::Missed, search::Searched, study::Role};
+use super::{search::Searched, study::Role};
 use crate::{
     index::Index,
     optimize::{
@@ -14,8 +14,9 @@ use crate::{
 pub struct Price {
     /// On what.
     pub index: Index,
-    /// In which condition; `None` for the nominal one.
-    pub condition: Option<String>,
+    /// In which conditions the bound holds the design back; `None` for the nominal one. Conditions that
+    /// share a bound share its price.
+    pub conditions: Vec<Option<String>>,
     /// The bound, SI.
     pub bound: f64,
     /// Change of the objective, scaled, per relative change of the bound; for damping ratios per
@@ -37,7 +38,7 @@ pub(super) fn relative(variable: &Variable, value: f64) -> f64 {
     }
 }
 
-/// Prices of the demands that hold a solution back, but for those that it misses.
+/// Prices of the demands that hold a solution back; none beside relaxed bounds, which nobody asked for.
 pub(super) fn prices(
     searched: &Searched,
     values: &Values,
@@ -46,6 +47,9 @@ pub(super) fn prices(
     let Searched { study, solved, .. } = searched;
     let x = &solved.point.x;
     let mut prices: Vec<Price> = Vec::new();
+    if !searched.missed.is_empty() {
+        return prices;
+    }
     let held = values
         .constraints
         .iter()
@@ -60,11 +64,6 @@ pub(super) fn prices(
             continue;
         };
         let condition = study.condition_name(term.condition).map(str::to_owned);
-        // The bound of a missed demand is none that was asked for.
-        let is_missed = |m: &Missed| m.index == term.index && m.condition == condition && !m.met();
-        if searched.missed.iter().any(is_missed) {
-            continue;
-        }
         // An evaluation that fails beside the design tells no price.
         let Ok(slope) = study.slope_of_bound(piece, x) else {
             continue;
@@ -84,14 +83,17 @@ pub(super) fn prices(
             .collect();
         let known = prices
             .iter_mut()
-            .find(|p| p.index == term.index && p.condition == condition);
+            .find(|p| p.index == term.index && p.bound.to_bits() == bound.to_bits());
         if let Some(known) = known {
             known.per_unit += per_unit;
             known.multiplier += multiplier;
+            if !known.conditions.contains(&condition) {
+                known.conditions.push(condition);
+            }
         } else {
             prices.push(Price {
                 index: term.index,
-                condition,
+                conditions: vec![condition],
                 bound,
                 multiplier,
                 per_unit,

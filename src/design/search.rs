@@ -28,10 +28,15 @@ pub struct Searched {
 }
 
 impl Searched {
-    /// Largest violation of a demand by the solution, relative; 0 if all are met.
+    /// Largest violation of a demand by the solution, relative.
     pub fn violation(&self) -> f64 {
-        let missed = self.missed.iter().filter(|missed| !missed.met());
+        let missed = self.missed.iter();
         missed.map(Missed::violation).fold(0.0, f64::max)
+    }
+
+    /// Whether a demand counts as not met.
+    pub fn misses(&self) -> bool {
+        self.missed.iter().any(|missed| !missed.met())
     }
 }
 

@@ -212,7 +212,7 @@ impl Candidate {
         match &self.searched.solved.point.values {
             Err(_) => (2, 0.0),
             Ok(values) if !values.feasible() => (1, values.violation().max(violation)),
-            Ok(values) if violation <= 0.0 => (0, values.objective()),
+            Ok(values) if !self.searched.misses() => (0, values.objective()),
             Ok(_) => (1, violation),
         }
     }

@@ -3,7 +3,7 @@
 mod curves;
 
 use super::{
-    Evaluation, curving::CurveStatus, equalization::wheel_load_changes, limits,
+    Evaluation, curving::CurveStatus, equalization::wheel_load_changes, limits, ride::NoRide,
     vertical_modes::flexible_separations,
 };
 use crate::{
@@ -20,12 +20,31 @@ pub struct Check {
     pub source: &'static str,
     /// Kind of quantity, for units.
     pub quantity: Quantity,
-    /// What the design has, SI; in a curve that the model does not cover, the curve's status.
-    pub value: Result<f64, CurveStatus>,
+    /// What the design has, SI, or why it has no such value.
+    pub value: Result<f64, NotAssessed>,
     /// What it should have, SI.
     pub limit: f64,
     /// Whether the value should be at least, rather than at most, the limit.
     pub at_least: bool,
+}
+
+/// Why a constraint cannot be assessed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NotAssessed {
+    /// The model does not cover the curve.
+    Curve(CurveStatus),
+    /// There is no stationary response.
+    Ride(NoRide),
+}
+
+impl NotAssessed {
+    /// Code in files.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::Curve(status) => status.code(),
+            Self::Ride(reason) => reason.code(),
+        }
+    }
 }
 
 /// How a design stands to a constraint.
@@ -102,49 +121,50 @@ fn peak(rms: &[f64]) -> f64 {
 }
 
 fn strokes(list: &mut Vec<Check>, evaluation: &Evaluation) {
-    let mut stroke = |name, source, rms: &[f64], limit| {
-        list.push(at_most(name, source, Quantity::Stroke, peak(rms), limit));
+    let lateral = evaluation.lateral.as_ref();
+    let vertical = evaluation.vertical.as_ref();
+    let mut stroke = |name: &str, source, rms: Result<&[f64], &NoRide>, limit| {
+        list.push(Check {
+            value: rms.map(peak).map_err(|reason| NotAssessed::Ride(*reason)),
+            ..at_most(name, source, Quantity::Stroke, 0.0, limit)
+        });
     };
-    if let Ok(ride) = &evaluation.lateral {
-        stroke(
-            "primary lateral stroke, 3σ",
-            "3.3.4",
-            &ride.primary_stroke,
-            limits::PRIMARY_STOP,
-        );
-        stroke(
-            "primary longitudinal stroke, 3σ",
-            "3.3.4",
-            &ride.longitudinal_stroke,
-            limits::PRIMARY_STOP,
-        );
-        stroke(
-            "secondary lateral stroke, 3σ",
-            "3.3.4",
-            &ride.secondary_stroke,
-            limits::SECONDARY_STOP,
-        );
-        stroke(
-            "wheelset excursion, 3σ",
-            "3.3.5",
-            &ride.excursion,
-            limits::EXCURSION,
-        );
-    }
-    if let Ok(ride) = &evaluation.vertical {
-        stroke(
-            "primary vertical stroke, 3σ",
-            "3.3.4",
-            &ride.primary_stroke,
-            limits::PRIMARY_STOP,
-        );
-        stroke(
-            "secondary vertical stroke, 3σ",
-            "3.3.4",
-            &ride.secondary_stroke,
-            limits::SECONDARY_STOP,
-        );
-    }
+    stroke(
+        "primary lateral stroke, 3σ",
+        "3.3.4",
+        lateral.map(|ride| &ride.primary_stroke[..]),
+        limits::PRIMARY_STOP,
+    );
+    stroke(
+        "primary longitudinal stroke, 3σ",
+        "3.3.4",
+        lateral.map(|ride| &ride.longitudinal_stroke[..]),
+        limits::PRIMARY_STOP,
+    );
+    stroke(
+        "secondary lateral stroke, 3σ",
+        "3.3.4",
+        lateral.map(|ride| &ride.secondary_stroke[..]),
+        limits::SECONDARY_STOP,
+    );
+    stroke(
+        "wheelset excursion, 3σ",
+        "3.3.5",
+        lateral.map(|ride| &ride.excursion[..]),
+        limits::EXCURSION,
+    );
+    stroke(
+        "primary vertical stroke, 3σ",
+        "3.3.4",
+        vertical.map(|ride| &ride.primary_stroke[..]),
+        limits::PRIMARY_STOP,
+    );
+    stroke(
+        "secondary vertical stroke, 3σ",
+        "3.3.4",
+        vertical.map(|ride| &ride.secondary_stroke[..]),
+        limits::SECONDARY_STOP,
+    );
 }
 
 fn equalization(list: &mut Vec<Check>, case: &Case) {

@@ -3,18 +3,21 @@
 //! The report keeps the damping ratio of this mode at 0.1–0.2 (4.7); its formula for the truck's critical
 //! speed holds the carbody likewise (3.5-6). The model is that of 3.4.4 with the carbody's coordinates
 //! held, so that none of its modes can be taken for hunting. One truck remains: 6 coordinates, 7 with
-//! roll. Of its motions s_k the slowest, s_1, is hunting where wheels roll. Others count as soon as they
-//! are nearly as slow, so that the damping ratio changes continuously where two exchange their parts:
+//! roll. Of its motions s_k the least damped counts, with the damping of those outside the frequencies
+//! of kinematic motion raised the more the further they lie outside:
 //!
 //! ```math
-//! ζ = min(1, min_k [ζ_k + p_k²]),   p_k = max(0, ln(|s_k|/|s_1|) − ln √2)
+//! ζ = min(1, min_k ζ_k w_k),   w_k = 1 + 8 p_k² if ζ_k > 0, else 1
+//! p_k = max(0, ln(f_low/f_k), ln(f_k/f_high)),   f_k = |s_k|/2π
 //! ```
 //!
-//! Within half an octave of the slowest a motion counts as it is, an octave above with 0.12 more, two
-//! octaves above with 1.08 more: then only if it grows. Only eigenvalues enter, which are continuous
-//! where eigenvectors are not. A motion without oscillation has ζ = 1.
+//! f_low and f_high are those of the rigid truck and of the free wheelset, half an octave apart
+//! ([`KinematicBand`]). An octave outside a motion counts with 4.8 times its damping, two octaves outside
+//! with 16 times. One that grows counts as it is, so that ζ < 0 exactly if a truck hunts under a carbody at
+//! rest. Only eigenvalues enter, which are continuous where eigenvectors are not. A motion without
+//! oscillation has ζ = 1.
 
-use std::f64::consts::{LN_2, TAU};
+use std::f64::consts::{SQRT_2, TAU};
 
 use nalgebra::{Complex, DVector};
 
@@ -22,10 +25,46 @@ use super::{
     gradients::modes,
     mode::{Mode, damping_ratio, damping_ratio_change, size},
 };
-use crate::dynamics::{EigenError, ForcedTangent, LateralModel, diverge, eigenvalues};
+use crate::{
+    case::Case,
+    closed_form::kinematic,
+    dynamics::{EigenError, ForcedTangent, LateralModel, diverge, eigenvalues},
+};
 
-/// ln(|s_k|/|s_1|) up to which a motion counts as it is: half an octave.
-const AS_SLOW: f64 = LN_2 / 2.0;
+/// Growth of the weight of a damping ratio with the square of the distance from the band, in ln f.
+const RAISED: f64 = 8.0;
+
+/// Frequencies of kinematic motion, Hz.
+#[derive(Debug, Clone, Copy)]
+pub struct KinematicBand {
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+impl KinematicBand {
+    /// From the rigid truck's kinematic frequency (3.5-5) over √2 to the free wheelset's (3.5-2)
+    /// times √2, at `speed` in m/s: a truck on springs lies between the two, give or take what
+    /// inertia and gravitational stiffness do.
+    pub fn new(case: &Case, speed: f64) -> Self {
+        let (vehicle, conicity) = (&case.vehicle, case.wheel_rail.conicity);
+        Self {
+            low: kinematic::truck_frequency(vehicle, conicity, speed) / SQRT_2,
+            high: kinematic::wheelset_frequency(vehicle, conicity, speed) * SQRT_2,
+        }
+    }
+
+    /// Whether it holds a frequency, Hz.
+    pub fn holds(self, frequency: f64) -> bool {
+        (self.low..=self.high).contains(&frequency)
+    }
+
+    /// Distance of a frequency, Hz, from the band, in ln f: negative below it.
+    fn outside(self, frequency: f64) -> f64 {
+        (frequency / self.low).ln().min(0.0) + (frequency / self.high).ln().max(0.0)
+    }
+}
 
 /// The kinematic mode at one speed.
 #[derive(Debug, Clone)]
@@ -34,6 +73,8 @@ pub struct KinematicMode {
     pub frequency: f64,
     /// ζ as defined for the module; at most 1.
     pub damping_ratio: f64,
+    /// Damping ratio of that motion itself.
+    pub own_damping_ratio: f64,
     /// The truck's motions with Im s ≥ 0, the slowest first.
     pub motions: Vec<TruckMotion>,
 }
@@ -43,14 +84,34 @@ pub struct KinematicMode {
 pub struct TruckMotion {
     /// s, rad/s.
     pub eigenvalue: Complex<f64>,
-    /// p: by how much it is faster than those that count as they are, in ln |s|.
-    pub faster: f64,
+    /// Distance from the band of kinematic motion, in ln f: negative below it.
+    pub outside: f64,
 }
 
 impl TruckMotion {
-    /// ζ + p².
+    /// ζ w.
     pub fn damping_ratio(&self) -> f64 {
-        damping_ratio(self.eigenvalue) + self.faster * self.faster
+        damping_ratio(self.eigenvalue) * self.weight()
+    }
+
+    /// w.
+    fn weight(&self) -> f64 {
+        if damping_ratio(self.eigenvalue) > 0.0 {
+            1.0 + RAISED * self.outside * self.outside
+        } else {
+            1.0
+        }
+    }
+
+    /// Change of ζ w with that of the eigenvalue and of the band's logarithm.
+    fn change(&self, change: Complex<f64>, band: f64) -> f64 {
+        let s = self.eigenvalue;
+        let own = damping_ratio_change(s, change) * self.weight();
+        let zeta = damping_ratio(s);
+        if zeta <= 0.0 {
+            return own;
+        }
+        own + zeta * 2.0 * RAISED * self.outside * ((change / s).re - band)
     }
 
     /// |s|/2π, Hz.
@@ -65,12 +126,13 @@ impl TruckMotion {
 }
 
 impl KinematicMode {
-    /// Of a lateral model at `speed`, m/s. `None` if the truck diverges.
+    /// Of the lateral model of a case at `speed`, m/s. `None` if the truck diverges.
     ///
     /// # Errors
     ///
     /// [`EigenError`] if eigenvalues cannot be had.
-    pub fn new(model: &LateralModel, speed: f64) -> Result<Option<Self>, EigenError> {
+    pub fn new(model: &LateralModel, case: &Case, speed: f64) -> Result<Option<Self>, EigenError> {
+        let band = KinematicBand::new(case, speed);
         let (_, truck) = model.one_truck(speed);
         let mut values = eigenvalues(truck.state_matrix(speed))?;
         if diverge(&values) {
@@ -78,22 +140,21 @@ impl KinematicMode {
         }
         values.retain(|s| s.im >= 0.0);
         values.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
-        let Some(slowest) = values.first().map(|s| size(*s)) else {
-            return Err(EigenError::NotConverged);
-        };
         let motions: Vec<TruckMotion> = values
             .into_iter()
             .map(|s| TruckMotion {
                 eigenvalue: s,
-                faster: ((size(s) / slowest).ln() - AS_SLOW).max(0.0),
+                outside: band.outside(size(s) / TAU),
             })
             .collect();
         let counts = motions
             .iter()
-            .min_by(|a, b| a.damping_ratio().total_cmp(&b.damping_ratio()));
-        Ok(counts.copied().map(|counts| Self {
+            .min_by(|a, b| a.damping_ratio().total_cmp(&b.damping_ratio()))
+            .ok_or(EigenError::NotConverged)?;
+        Ok(Some(Self {
             frequency: counts.frequency(),
             damping_ratio: counts.damping_ratio().min(1.0),
+            own_damping_ratio: damping_ratio(counts.eigenvalue),
             motions,
         }))
     }
@@ -105,12 +166,13 @@ impl KinematicMode {
         unit * (TAU * self.frequency)
     }
 
-    /// Derivatives of [`TruckMotion::damping_ratio`] by design constants, of every motion, at `speed`, m/s.
-    /// `None` if the vectors cannot be had.
+    /// Derivatives of [`TruckMotion::damping_ratio`] by design constants, of every motion, at `speed`, m/s;
+    /// `band` has those of the logarithm of the band's frequencies. `None` if the vectors cannot be had.
     pub fn derivatives(
         &self,
         model: &LateralModel,
         tangents: &[ForcedTangent],
+        band: &[f64],
         speed: f64,
     ) -> Option<Vec<Vec<f64>>> {
         let system = &model.forced.system;
@@ -133,16 +195,12 @@ impl KinematicMode {
             };
             Some(modes::by_constants(system, tangents, speed, &mode))
         };
-        let slowest = self.motions.first()?.eigenvalue;
-        let of_slowest = changes(slowest)?;
         let derivatives = self.motions.iter().map(|motion| {
-            let s = motion.eigenvalue;
-            let change = changes(s)?.into_iter().zip(&of_slowest);
-            let of = |(change, of_slowest): (Complex<f64>, &Complex<f64>)| {
-                let faster = (change / s).re - (of_slowest / slowest).re;
-                damping_ratio_change(s, change) + 2.0 * motion.faster * faster
-            };
-            Some(change.map(of).collect())
+            let all = changes(motion.eigenvalue)?.into_iter().zip(band);
+            Some(
+                all.map(|(change, band)| motion.change(change, *band))
+                    .collect(),
+            )
         });
         derivatives.collect()
     }

@@ -1,18 +1,15 @@
 //! Modes of the lateral model at one speed, named by what moves.
 
 use super::{
-    kinematic_mode::KinematicMode,
+    kinematic_mode::{KinematicBand, KinematicMode},
     mode::{Mode, damping_ratio, frequency},
 };
 use crate::{
     case::Case,
-    closed_form::kinematic,
     dynamics::{
         EigenError, LateralModel, Poles,
         lateral::{Body, Coordinate},
     },
-    vehicle::Vehicle,
-    wheel_rail::Contact,
 };
 
 /// Damping ratio above which a pair counts as not oscillating: rounding decides whether it comes
@@ -82,7 +79,8 @@ pub struct LateralModes {
     pub real: Vec<f64>,
     /// Whether a motion without oscillation grows.
     pub diverge: bool,
-    /// Hunting of a truck under a carbody at rest, whatever modes are named; `None` if the truck diverges.
+    /// Hunting of a truck under a carbody at rest, whatever modes are named; `None` if it or the
+    /// vehicle diverges.
     pub kinematic: Option<KinematicMode>,
 }
 
@@ -93,16 +91,18 @@ impl LateralModes {
     ///
     /// [`EigenError`] if the mode shapes cannot be had.
     pub fn new(model: &LateralModel, case: &Case, poles: &Poles) -> Result<Self, EigenError> {
-        let contact = case.wheel_rail.contact();
-        let kinematic = KinematicBand::new(&case.vehicle, &contact, poles.speed);
+        let kinematic = KinematicBand::new(case, poles.speed);
         let system = &model.forced.system;
         let damping = system.damping_at(poles.speed);
         let mut modes = Self {
             oscillatory: Vec::new(),
             real: Vec::new(),
             diverge: poles.diverge(),
-            kinematic: KinematicMode::new(model, poles.speed)?,
+            kinematic: None,
         };
+        if !modes.diverge {
+            modes.kinematic = KinematicMode::new(model, case, poles.speed)?;
+        }
         let mut found = Vec::new();
         for &s in &poles.values {
             if s.im > 0.0 {
@@ -130,10 +130,11 @@ impl LateralModes {
         Ok(modes)
     }
 
-    /// The least-damped oscillatory mode.
+    /// The least-damped oscillatory mode; `None` if the vehicle diverges, which no damping ratio tells.
     pub fn least_damped(&self) -> Option<&LateralMode> {
-        self.oscillatory
-            .iter()
+        let modes = self.oscillatory.iter();
+        modes
+            .filter(|_| !self.diverge)
             .min_by(|a, b| a.damping_ratio.total_cmp(&b.damping_ratio))
     }
 
@@ -183,33 +184,6 @@ impl std::fmt::Display for AtSpeed {
             Self::Unstable => "unstable at the speed",
             Self::Diverges => "a motion without oscillation grows: static instability",
         })
-    }
-}
-
-/// Frequencies between which a truck mode is the kinematic one, Hz.
-#[derive(Debug, Clone, Copy)]
-pub struct KinematicBand {
-    /// Lower end.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
-}
-
-impl KinematicBand {
-    /// From the rigid truck's kinematic frequency (3.5-5) over √2 to the free wheelset's (3.5-2)
-    /// times √2, at `speed` in m/s: a truck on springs lies between the two, give or take what
-    /// inertia and gravitational stiffness do.
-    pub fn new(vehicle: &Vehicle, contact: &Contact, speed: f64) -> Self {
-        let w = kinematic::wheelset_frequency(vehicle, contact.conicity, speed);
-        let t = kinematic::truck_frequency(vehicle, contact.conicity, speed);
-        Self {
-            low: t / std::f64::consts::SQRT_2,
-            high: w * std::f64::consts::SQRT_2,
-        }
-    }
-
-    fn holds(self, frequency: f64) -> bool {
-        (self.low..=self.high).contains(&frequency)
     }
 }
 

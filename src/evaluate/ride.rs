@@ -85,7 +85,11 @@ pub fn average(values: &[f64]) -> f64 {
 }
 
 /// Whether there is a stationary response.
-pub(super) fn stationary(model: &ForcedModel, poles: &Poles) -> Result<(), NoRide> {
+///
+/// # Errors
+///
+/// [`NoRide`] with the reason why there is none.
+pub fn stationary(model: &ForcedModel, poles: &Poles) -> Result<(), NoRide> {
     if poles.stable() {
         Ok(())
     } else if poles.diverge() {

@@ -20,6 +20,18 @@ pub enum NoStroke {
     NoRide(#[from] NoRide),
 }
 
+impl NoStroke {
+    /// Code in files.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::NotAsked => "no-curve",
+            Self::NotCovered(status) => status.code(),
+            Self::NoCurve(_) => "no-steady-state",
+            Self::NoRide(reason) => reason.code(),
+        }
+    }
+}
+
 /// Stroke taken in the curve, m: the quasi-static stroke s of a truck, m, and three standard deviations
 /// σ of its random stroke, m. Both are taken to add up, which is our convention: the curve is run
 /// while its track is as rough as the tangent track.

@@ -24,9 +24,7 @@ pub(crate) fn certificate(sheet: &mut Sheet, explained: &Explained) {
     for price in &explained.prices {
         sheet.line(&price_line(explained, price));
     }
-    // Beside relaxed bounds there is no room to move: the multipliers there tell no gain.
-    let is_compromise = explained.status == Status::Infeasible;
-    for chosen in explained.chosen.iter().filter(|_| !is_compromise) {
+    for chosen in explained.chosen.iter().filter(|_| !explained.is_relaxed) {
         if chosen.at_bound.is_some() && explained.bound_gain(chosen) > 1e-4 {
             sheet.line(&format!(
                 "10 % beyond the bound on {} would gain about {} %",
@@ -75,9 +73,14 @@ fn price_line(explained: &Explained, price: &Price) -> String {
         Sense::AtLeast => "more",
         Sense::AtMost => "less",
     };
-    let name = match &price.condition {
-        Some(condition) => format!("{} ({condition})", price.index.words()),
-        None => price.index.words().into(),
+    let conditions = price.conditions.iter();
+    let conditions = conditions.map(|c| c.as_deref().unwrap_or("nominal"));
+    let name = match &price.conditions[..] {
+        [None] => price.index.words().into(),
+        _ => {
+            let list: Vec<&str> = conditions.collect();
+            format!("{} ({})", price.index.words(), list.join(", "))
+        }
     };
     let change = explained.price(price).abs();
     let quantity = price.index.quantity();
@@ -206,6 +209,11 @@ pub(crate) fn conflict(sheet: &mut Sheet, result: &DesignResult) {
     } else {
         "In conflict"
     });
+    let groups = conflict.demands.iter().map(|opposed| opposed.group);
+    let alone = match groups.max() {
+        Some(0) => "feasible if it alone became",
+        _ => "feasible in its group if it alone became",
+    };
     let rows: Vec<Vec<String>> = conflict
         .demands
         .iter()
@@ -227,11 +235,7 @@ pub(crate) fn conflict(sheet: &mut Sheet, result: &DesignResult) {
             ]
         })
         .collect();
-    sheet.table(
-        &["", "asked", "share", "feasible if it alone became"],
-        &[],
-        &rows,
-    );
+    sheet.table(&["", "asked", "share", alone], &[], &rows);
 }
 
 /// The joint optimisation beside the sequential design.

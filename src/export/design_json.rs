@@ -16,7 +16,7 @@ use crate::{
         sensitivity::Sensitivity,
     },
     evaluate::{checks::checks, curving::CurveStatus},
-    optimize::{certificate::Curvature, problem::Failure},
+    optimize::{archive::Stop, certificate::Curvature, problem::Failure},
     spec::Spec,
 };
 
@@ -45,7 +45,11 @@ pub fn design(
             Delivered::AsGiven => "as-given",
         }),
     );
-    insert("stopped", json!(result.stopped.map(|s| s.to_string())));
+    insert("stopped", json!(result.stopped.map(Stop::code)));
+    insert(
+        "stopped_text",
+        json!(result.stopped.map(|stop| stop.to_string())),
+    );
     let unmet: Vec<Value> = result.unmet().map(margin).collect();
     insert("unmet", json!(unmet));
     insert("margins", result.margins.iter().map(margin).collect());
@@ -108,6 +112,7 @@ fn margin(margin: &Margin) -> Value {
         "failure": margin.reached.as_ref().err(),
         "exceeded_limit": exceeded.map(|(limit, _)| limit.to_string()),
         "exceeded_limit_ratio": exceeded.map(|(_, ratio)| ratio),
+        "largest_limit_ratio": margin.curve_ratio,
         "met": margin.met(),
         "verdict": match margin.verdict() {
             Verdict::Met => "met",
@@ -195,7 +200,8 @@ fn variable(explained: &Explained, c: &Chosen) -> Value {
 fn price(explained: &Explained, price: &Price) -> Value {
     json!({
         "key": price.index.path(),
-        "condition": price.condition,
+        "condition": price.conditions.first(),
+        "conditions": price.conditions,
         "bound_si": price.bound,
         "multiplier": price.multiplier,
         "objective_change_per_si_unit": explained.price(price),
@@ -219,6 +225,7 @@ fn conflict(result: &DesignResult) -> Value {
     let Some(conflict) = &result.conflict else {
         return Value::Null;
     };
+    let groups = conflict.demands.iter().map(|opposed| opposed.group).max();
     let demands = conflict.demands.iter().map(|opposed| {
         json!({
             "key": opposed.index.path(),
@@ -227,7 +234,8 @@ fn conflict(result: &DesignResult) -> Value {
             "group": opposed.group,
             "share": opposed.share,
             "influenced": opposed.influenced,
-            "feasible_alone_at_si": opposed.alone,
+            "feasible_alone_at_si": opposed.alone.filter(|_| groups == Some(0)),
+            "feasible_alone_in_group_at_si": opposed.alone,
         })
     });
     demands.collect()

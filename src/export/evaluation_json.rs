@@ -68,8 +68,8 @@ pub(super) fn indices(case: &Case, evaluation: &Evaluation) -> Map<String, Value
         "service_curve": service_curve(evaluation),
         "secondary_lateral_stroke_in_curve_m": stroke_in_curve.ok(),
         "secondary_lateral_stroke_in_curve_status": match stroke_in_curve {
-            Ok(_) => CurveStatus::WithinModel.code().to_string(),
-            Err(reason) => reason.to_string(),
+            Ok(_) => CurveStatus::WithinModel.code(),
+            Err(reason) => reason.code(),
         },
         "modes_at_speed": modes.oscillatory.iter().map(mode).collect::<Vec<_>>(),
         "real_eigenvalues_per_s": modes.real,
@@ -143,6 +143,7 @@ pub(super) fn kinematic_mode(m: &KinematicMode) -> Value {
     json!({
         "frequency_hz": m.frequency,
         "damping_ratio": m.damping_ratio,
+        "motion_damping_ratio": m.own_damping_ratio,
         "name": LateralShape::Kinematic.to_string(),
         "carbody_energy_share": 0.0,
     })
@@ -209,7 +210,7 @@ fn passengers(
 }
 
 /// Why a ride is null, where it is: a code.
-fn ride_status<T>(ride: &Result<T, NoRide>) -> &'static str {
+pub(super) fn ride_status<T>(ride: &Result<T, NoRide>) -> &'static str {
     match ride {
         Ok(_) => SOLVED,
         Err(reason) => reason.code(),
@@ -217,7 +218,7 @@ fn ride_status<T>(ride: &Result<T, NoRide>) -> &'static str {
 }
 
 /// The same in words.
-fn ride_status_text<T>(ride: &Result<T, NoRide>) -> String {
+pub(super) fn ride_status_text<T>(ride: &Result<T, NoRide>) -> String {
     match ride {
         Ok(_) => SOLVED.into(),
         Err(reason) => reason.to_string(),

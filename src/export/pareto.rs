@@ -13,6 +13,7 @@ use super::{
 use crate::{
     design::pareto::{Front, FrontPoint},
     index::Index,
+    optimize::archive::Stop,
     spec::Spec,
     units::{DisplayUnit, Quantity},
 };
@@ -77,7 +78,8 @@ pub fn json(name: &str, front: &Front, spec: &Spec, digest: &str) -> Value {
         "seed": spec.design.seed,
         "indices": front.indices.iter().map(|i| i.name()).collect::<Vec<_>>(),
         "status": status::of_front(front),
-        "stopped": front.stopped.map(|s| s.to_string()),
+        "stopped": front.stopped.map(Stop::code),
+        "stopped_text": front.stopped.map(|stop| stop.to_string()),
         "evaluations": front.evaluations,
         "failures": failures_of(&front.failures),
         "dominated": front.dominated,

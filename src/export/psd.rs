@@ -2,14 +2,23 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{evaluation_text::title, number::significant, sheet::Sheet, table::Table};
+use super::{
+    evaluation_json::{ride_status, ride_status_text},
+    evaluation_text::title,
+    number::significant,
+    sheet::Sheet,
+    table::Table,
+};
 use crate::{
     case::Case,
     dynamics::{
         EigenError, ForcedModel, LateralModel, Poles, VerticalModel, elimination::LANES, lateral,
         vertical,
     },
-    evaluate::response::Response,
+    evaluate::{
+        response::Response,
+        ride::{NoRide, stationary},
+    },
 };
 
 /// A spectrum: name with unit, values.
@@ -20,10 +29,10 @@ type Column = (&'static str, Vec<f64>);
 pub struct Spectra {
     /// Hz.
     pub frequency: Vec<f64>,
-    /// Lateral outputs; `None`: unstable at the speed, so there is no stationary response.
-    pub lateral: Option<Vec<Column>>,
-    /// Vertical outputs; `None` likewise.
-    pub vertical: Option<Vec<Column>>,
+    /// Lateral outputs, or why there is no stationary response.
+    pub lateral: Result<Vec<Column>, NoRide>,
+    /// Vertical outputs likewise.
+    pub vertical: Result<Vec<Column>, NoRide>,
 }
 
 const LATERAL: [(&str, usize); 7] = [
@@ -100,8 +109,8 @@ impl Spectra {
             .collect();
         let of = |model: &ForcedModel, wanted: &[(&'static str, usize)]| {
             let poles = Poles::at(model, case.service.speed)?;
-            let stationary = poles.stable();
-            Ok(stationary.then(|| columns(model, case, &frequency, wanted)))
+            let stationary = stationary(model, &poles);
+            Ok(stationary.map(|()| columns(model, case, &frequency, wanted)))
         };
         let lateral = of(&LateralModel::new(case).forced, &LATERAL)?;
         let vertical = of(&VerticalModel::new(case).forced, &VERTICAL)?;
@@ -119,12 +128,13 @@ impl Spectra {
             ("Lateral", self.lateral.as_ref()),
             ("Vertical", self.vertical.as_ref()),
         ] {
-            let Some(columns) = columns else {
-                sheet.heading(heading);
-                sheet.line(
-                    "none: unstable at the operating speed, so there is no stationary response",
-                );
-                continue;
+            let columns = match columns {
+                Ok(columns) => columns,
+                Err(reason) => {
+                    sheet.heading(heading);
+                    sheet.line(&format!("none: {reason}"));
+                    continue;
+                }
             };
             sheet.heading(&format!("{heading} power spectral density (one-sided)"));
             let rows: Vec<Vec<String>> = (0..self.frequency.len())
@@ -171,8 +181,12 @@ impl Spectra {
             "speed_m_per_s": case.service.speed,
             "track": case.service.track.name,
             "frequency_hz": self.frequency,
-            "lateral": self.lateral.as_deref().map(object),
-            "vertical": self.vertical.as_deref().map(object),
+            "lateral": self.lateral.as_deref().map(object).ok(),
+            "lateral_status": ride_status(&self.lateral),
+            "lateral_status_text": ride_status_text(&self.lateral),
+            "vertical": self.vertical.as_deref().map(object).ok(),
+            "vertical_status": ride_status(&self.vertical),
+            "vertical_status_text": ride_status_text(&self.vertical),
         })
     }
 

@@ -14,6 +14,9 @@ pub(crate) fn verdict(sheet: &mut Sheet, result: &DesignResult) {
         ));
     }
     sheet.heading(&match (result.stopped, result.failure()) {
+        _ if result.met() && result.margins.is_empty() => {
+            "The spec sets no requirement and no limit.".into()
+        }
         _ if result.met() => "All requirements and limits are met.".into(),
         (Some(_), _) => "Not everything is met yet:".into(),
         (None, Some(failure)) => {
@@ -42,12 +45,11 @@ pub(crate) fn verdict(sheet: &mut Sheet, result: &DesignResult) {
 fn choice(result: &DesignResult) -> Option<&'static str> {
     match result.delivered {
         Delivered::AsGiven if result.stopped.is_some() => Some(
-            "The design found so far misses demands that the one as given meets: that one is \
+            "The design as given stands better to the demands than the one found so far: it is \
              delivered.",
         ),
         Delivered::AsGiven => Some(
-            "No design found stands better to the demands than the one as given: that one is \
-             delivered.",
+            "The design as given stands better to the demands than those found: it is delivered.",
         ),
         Delivered::AllAtOnce if result.joint.is_none() => None,
         Delivered::AllAtOnce if result.met() => Some(

@@ -33,6 +33,16 @@ pub enum Stop {
     Interrupted,
 }
 
+impl Stop {
+    /// Code in files.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::Budget => "budget-spent",
+            Self::Interrupted => "interrupted",
+        }
+    }
+}
+
 /// Is told how a long search gets on. Calls come from several threads.
 pub trait Progress: Sync {
     /// A new part of the work begins.

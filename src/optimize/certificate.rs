@@ -12,7 +12,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    problem::{FEASIBLE, Values},
+    problem::{FEASIBLE, Point, Values},
     subproblem::{self, Step, lagrangian_hessian},
     surrogate::Surrogate,
 };
@@ -156,6 +156,16 @@ impl Certificate {
             constraint_gradients: Vec::new(),
             curvature: Some(Curvature::Vertex),
         }
+    }
+
+    /// Whether it has a multiplier for every piece of a point.
+    pub fn is_of(&self, point: &Point) -> bool {
+        let Ok(values) = &point.values else {
+            return false;
+        };
+        let own = self.objective_multipliers.iter().map(Vec::len);
+        let pieces = values.objectives.iter().map(Vec::len);
+        own.eq(pieces) && self.constraint_multipliers.len() == values.constraints.len()
     }
 
     /// Adds the second-order condition, from surrogates that know all curvatures.

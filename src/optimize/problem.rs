@@ -176,6 +176,9 @@ pub enum Failure {
     #[error("random response not converged")]
     #[serde(rename = "not-converged")]
     Integration,
+    /// The end of the range searched bounds the index, and no more is known of it.
+    #[error("only-bounded: beyond the range searched")]
+    OnlyBounded,
     /// An index came out infinite or undefined.
     #[error("an index that is not a number")]
     NotFinite,

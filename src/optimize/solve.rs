@@ -246,7 +246,7 @@ fn finish(
                 } else {
                     found.status
                 },
-                certificate: found.certificate.filter(|_| keeps),
+                certificate: found.certificate.filter(|c| keeps && c.is_of(&any)),
                 point: any,
             }
         }

@@ -8,6 +8,10 @@ use super::{
     table::{Column, blocks, table},
 };
 use crate::{
+    design::{
+        margin::{self, Margin},
+        outcome::Delivered,
+    },
     evaluate::checks::{Verdict, checks},
     export::{
         certificate::{conflict, margin_row},
@@ -41,6 +45,8 @@ fn said(report: &Report) -> Markup {
         return html! { p.verdict.open { "The spec sets no requirement and no limit." } };
     }
     let unmet = result.unmet().count();
+    let is_missed = |margin: &&Margin| margin.verdict() == margin::Verdict::NotMet;
+    let missed = result.unmet().filter(is_missed).count();
     if unmet == 0 {
         return html! {
             p.verdict.met { "All " (result.margins.len()) " requirements and limits are met." }
@@ -55,8 +61,10 @@ fn said(report: &Report) -> Markup {
     }
     html! {
         p.verdict.unmet {
-            (unmet) " of " (result.margins.len()) " requirements and limits "
-            (if unmet == 1 { "is" } else { "are" }) " not met."
+            (missed) " of " (result.margins.len()) " requirements and limits "
+            (if missed == 1 { "is" } else { "are" }) " not met"
+            @if unmet > missed { ", " (unmet - missed) " not assessed" }
+            "."
         }
         (blocks(&sheet, "Not met"))
     }
@@ -134,7 +142,12 @@ fn ended(report: &Report) -> Markup {
     ];
     html! {
         (table("How the searches ended", &columns, &rows))
-        @if result.joint_in_place_of_sequence() {
+        @if result.delivered == Delivered::AsGiven {
+            p.note {
+                "The design of this report is the one as given: it stands better to the demands than "
+                "those that the searches came to."
+            }
+        } @else if result.joint_in_place_of_sequence() {
             p.note {
                 "The design of this report is that of “all at once”: it meets or comes closer to "
                 "demands that the trade-offs taken in turn miss."

@@ -35,8 +35,10 @@ pub fn requirement(report: &Report) -> Markup {
                 dt { "order of the design" }
                 dd {
                     @match spec.design.order {
-                        Order::Sequential => "the three trade-offs in turn, then all at once",
-                        Order::Joint => "all parameters at once",
+                        Order::Sequential if spec.objective.is_empty() => {
+                            "the three trade-offs in turn, then all at once"
+                        }
+                        Order::Sequential | Order::Joint => "all parameters at once",
                     }
                 }
             }

@@ -93,6 +93,6 @@ pub(super) fn follow(book: &Workbook, speeds: &[f64]) -> Vec<Followed> {
 /// Eigenvalue of the kinematic mode at a speed, with the damping ratio that is its index. `None` if the
 /// truck diverges.
 pub(super) fn kinematic_at(book: &Workbook, speed: f64) -> Option<Complex64> {
-    let mode = KinematicMode::new(&LateralModel::new(book.case()), speed);
+    let mode = KinematicMode::new(&LateralModel::new(book.case()), book.case(), speed);
     mode.ok().flatten().map(|mode| mode.eigenvalue())
 }

@@ -18,6 +18,7 @@ use crate::{
     index::{Behaviour, Index, Sense},
     optimize::problem::{Failure, Piece},
     parameter::Parameter,
+    track::MAX_DEGREE,
 };
 use curving::{Curves, not_covered};
 
@@ -80,6 +81,19 @@ pub fn measure_graded(
 /// does not cover the service curve.
 pub fn measure_each(case: &Case, wanted: &[Wanted]) -> Vec<Result<Vec<Piece>, Failure>> {
     Job::new(case, wanted, None, Purpose::Verdict).run()
+}
+
+/// Whether a value is only an end of the range searched: of speeds for the critical speed, of curves for
+/// the limits of curving.
+pub fn is_only_bounded(case: &Case, index: Index, value: f64) -> bool {
+    let [low, high] = case.model.speed_range;
+    match index {
+        Index::CriticalSpeed => value <= low || value >= high,
+        Index::DegreeCurve | Index::FlangeLimitedCurve | Index::SlipLimitedCurve => {
+            value >= MAX_DEGREE.to_radians()
+        }
+        _ => false,
+    }
 }
 
 /// Why an index has no pieces where its measurement did not fail.

@@ -2,12 +2,13 @@
 
 use super::{Lateral, Measured, Wanted};
 use crate::{
+    case::Case,
     dynamics::{ForcedTangent, LateralModel},
     evaluate::{
         critical_speed::Stability,
         damping_range::{DampingMinimum, DampingRange, Place},
         gradients::modes,
-        kinematic_mode::KinematicMode,
+        kinematic_mode::{KinematicBand, KinematicMode},
         lateral_modes::LateralModes,
         mode::{Mode, damping_ratio_change},
     },
@@ -83,7 +84,8 @@ impl Lateral<'_> {
             return Err(Failure::Diverges);
         }
         let speed = self.case.service.speed;
-        let mode = KinematicMode::new(&self.model, speed).map_err(|_| Failure::Eigenvalues)?;
+        let mode =
+            KinematicMode::new(&self.model, self.case, speed).map_err(|_| Failure::Eigenvalues)?;
         let mode = mode.ok_or(Failure::Diverges)?;
         if mode.damping_ratio >= 1.0 {
             return Ok(vec![Piece {
@@ -92,7 +94,8 @@ impl Lateral<'_> {
             }]);
         }
         let gradients = if self.graded {
-            mode.derivatives(&self.model, &self.tangents, speed)
+            let band = self.slopes_of_band(speed);
+            mode.derivatives(&self.model, &self.tangents, &band, speed)
         } else {
             None
         };
@@ -106,6 +109,16 @@ impl Lateral<'_> {
                 gradient: gradients.as_ref().map(|of| of[k].clone()),
             });
         Ok(pieces.collect())
+    }
+
+    /// Derivatives by each constant of the logarithm of the frequencies of kinematic motion, whose
+    /// squares are linear in the conicity.
+    fn slopes_of_band(&self, speed: f64) -> Vec<f64> {
+        let square = |case: &Case| KinematicBand::new(case, speed).low.powi(2);
+        let own = square(self.case);
+        let slopes = self.constants.map(|c| c.slopes(own, square));
+        let slopes = slopes.unwrap_or_default().into_iter();
+        slopes.map(|slope| slope / (2.0 * own)).collect()
     }
 
     /// Damping ratios of all modes at the operating speed.

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     case::Case,
-    design::measure::{Wanted, absence, measure_each},
+    design::measure::{Wanted, absence, is_only_bounded, measure_each},
     index::{Index, Scale, Sense},
     optimize::problem::{Failure, Piece},
     spec::{DesignSpace, Spec},
@@ -204,12 +204,12 @@ fn outcomes(case: &Case, indices: &[Index]) -> Vec<Outcome> {
     let measured = measure_each(case, &wanted);
     let pairs = measured.into_iter().zip(indices);
     pairs
-        .map(|(pieces, index)| compared(*index, &pieces?))
+        .map(|(pieces, index)| compared(case, *index, &pieces?))
         .collect()
 }
 
 /// The worst piece of an index; its logarithm where the index is compared by ratios.
-fn compared(index: Index, pieces: &[Piece]) -> Outcome {
+fn compared(case: &Case, index: Index, pieces: &[Piece]) -> Outcome {
     let values = pieces.iter().map(|piece| piece.value);
     if values.clone().any(f64::is_nan) {
         return Err(Failure::NotFinite);
@@ -219,6 +219,9 @@ fn compared(index: Index, pieces: &[Piece]) -> Outcome {
         Sense::AtMost => values.reduce(f64::max),
     };
     let value = worst.ok_or_else(|| absence(index))?;
+    if is_only_bounded(case, index, value) {
+        return Err(Failure::OnlyBounded);
+    }
     match index.scale() {
         Scale::Linear => Ok(value),
         Scale::Logarithmic if value > 0.0 => Ok(value.ln()),
@@ -237,7 +240,8 @@ mod tests {
         };
         let e = std::f64::consts::E;
         for (index, values, outcome) in [
-            (Index::CriticalSpeed, &[1.0, e][..], Ok(0.0)),
+            (Index::CriticalSpeed, &[50.0, 90.0][..], Ok(50.0_f64.ln())),
+            (Index::CriticalSpeed, &[1.0, e], Err(Failure::OnlyBounded)),
             (Index::WheelLOverV, &[1.0, e], Ok(1.0)),
             (Index::LeastDampingRatio, &[-0.1, 0.2], Ok(-0.1)),
             (Index::WheelLOverV, &[0.0], Err(Failure::NotFinite)),
@@ -249,7 +253,7 @@ mod tests {
             (Index::FrequencySeparation, &[], Err(Failure::NoMode)),
         ] {
             assert_eq!(
-                compared(index, &pieces(values)),
+                compared(&Case::prototype(), index, &pieces(values)),
                 outcome,
                 "{index:?} {values:?}"
             );

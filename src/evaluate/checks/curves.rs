@@ -4,7 +4,7 @@
 //! at zero cant deficiency. Quasi-static strokes belong to the cant deficiency of the service; where
 //! none is given, to the FRA's 3 in (3.2-2), in the curve given or the tightest run there.
 
-use super::{Check, at_most};
+use super::{Check, NotAssessed, at_most};
 use crate::{
     case::Case,
     dynamics::curving::{CurvingError, CurvingModel},
@@ -89,7 +89,11 @@ impl Judged {
     ) -> Check {
         let name = format!("{name}, {}", self.place);
         Check {
-            value: self.state.as_ref().map(of).map_err(|status| *status),
+            value: self
+                .state
+                .as_ref()
+                .map(of)
+                .map_err(|s| NotAssessed::Curve(*s)),
             ..at_most(name, source, quantity, 0.0, limit)
         }
     }
@@ -151,8 +155,9 @@ pub(super) fn strokes(list: &mut Vec<Check>, case: &Case, evaluation: &Evaluatio
     );
     let value = match evaluation.secondary_lateral_stroke_in_curve() {
         Ok(strokes) => Ok(largest(&strokes)),
-        Err(NoStroke::NotCovered(status)) => Err(status),
-        Err(NoStroke::NotAsked | NoStroke::NoCurve(_) | NoStroke::NoRide(_)) => return,
+        Err(NoStroke::NotCovered(status)) => Err(NotAssessed::Curve(status)),
+        Err(NoStroke::NoRide(reason)) => Err(NotAssessed::Ride(reason)),
+        Err(NoStroke::NotAsked | NoStroke::NoCurve(_)) => return,
     };
     let name = format!(
         "secondary lateral stroke with 3σ, {}",

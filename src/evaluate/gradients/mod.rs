@@ -56,6 +56,23 @@ impl Constants {
         self.stencils.iter().map(|(constant, _)| *constant)
     }
 
+    /// Derivatives, by each constant, of a value that is affine in stiffness, damping and torque and at
+    /// most quadratic in the conicity between two rows of the table.
+    pub fn slopes(&self, own: f64, of: impl Fn(&Case) -> f64) -> Vec<f64> {
+        let slope = |(_, stencil): &(Parameter, Stencil)| {
+            let others = stencil.others(&of);
+            let same = others
+                .iter()
+                .all(|(_, other)| other.to_bits() == own.to_bits());
+            if same {
+                return 0.0;
+            }
+            let others: f64 = others.iter().map(|(weight, other)| weight * other).sum();
+            stencil.own() * own + others
+        };
+        self.stencils.iter().map(slope).collect()
+    }
+
     /// Derivatives of the lateral model.
     pub fn lateral(&self, model: &LateralModel) -> Vec<ForcedTangent> {
         self.of(&model.forced, |case| LateralModel::new(case).forced)
