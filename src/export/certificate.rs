@@ -73,14 +73,14 @@ fn price_line(explained: &Explained, price: &Price) -> String {
         Sense::AtLeast => "more",
         Sense::AtMost => "less",
     };
-    let conditions = price.conditions.iter();
-    let conditions = conditions.map(|c| c.as_deref().unwrap_or("nominal"));
-    let name = match &price.conditions[..] {
-        [None] => price.index.words().into(),
-        _ => {
-            let list: Vec<&str> = conditions.collect();
-            format!("{} ({})", price.index.words(), list.join(", "))
-        }
+    let name = if price.conditions == [None] {
+        price.index.words().into()
+    } else {
+        let conditions = price.conditions.iter();
+        let list: Vec<&str> = conditions
+            .map(|c| c.as_deref().unwrap_or("nominal"))
+            .collect();
+        format!("{} ({})", price.index.words(), list.join(", "))
     };
     let change = explained.price(price).abs();
     let quantity = price.index.quantity();
