@@ -5,6 +5,7 @@ mod support;
 use bogie::{
     case::Case,
     design::{
+        doubts::warnings,
         margin::{Margin, Verdict, margins, value},
         outcome::{Delivered, DesignResult},
         procedure::design,
@@ -420,4 +421,19 @@ fn the_price_of_a_bound_holds_for_all_conditions_that_share_it() {
     let change = (dearer - degree(&result)) / (0.1 * support::MPH);
     // Over a tenth of a mile per hour the curve is straight to a hundredth.
     assert_ratio("price", explained.price(price), change, 0.01);
+}
+
+/// A limit on the random stroke alone: the result warns that the vehicle leans beyond its stops.
+#[test]
+fn stops_forgotten_in_a_curve_are_warned_of() {
+    let mut spec = read("stops-in-curve");
+    let result = run(&spec);
+    let warned = |spec: &Spec| {
+        let all = warnings(&result.case, &result.evaluation, &spec.demands);
+        all.iter()
+            .any(|text| text.contains("secondary_lateral_stroke_in_curve"))
+    };
+    assert!(result.met() && warned(&spec));
+    spec.demands.set(Index::SecondaryLateralStrokeInCurve, 1.0);
+    assert!(!warned(&spec));
 }

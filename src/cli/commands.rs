@@ -3,7 +3,8 @@
 use std::ops::RangeInclusive;
 
 use bogie::{
-    evaluate::{Evaluation, warnings::warnings},
+    design::doubts::warnings,
+    evaluate::Evaluation,
     export::{self, curve::Curving, evaluation_json, modes, origin::sign, psd::Spectra},
     spec::{STARTER, Spec, schema},
     track::{MAX_DEGREE, SUPERELEVATION_BASE},
@@ -31,7 +32,7 @@ pub fn evaluate(run: &Run) -> Result<Done, Failure> {
         ..
     } = input::read(&run.source.spec)?;
     let evaluation = Evaluation::new(&spec.case).map_err(failed)?;
-    let warnings = warnings(&spec.case, &evaluation);
+    let warnings = warnings(&spec.case, &evaluation, &spec.demands);
     deliver(
         run,
         "evaluate",

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use bogie::{
     design::{
+        doubts::warnings,
         pareto,
         procedure::{self, DesignError},
         sensitivity::{self, Factors, Settings, Watch, analysis::indices_of},
     },
-    evaluate::warnings::warnings,
     export::{self, design_json, design_text, origin::PROGRAM, table::Table},
     index::Index,
     optimize::{
@@ -58,7 +58,7 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
         )),
         error @ DesignError::Eigen(_) => failed(error),
     })?;
-    let warnings = warnings(&result.case, &result.evaluation);
+    let warnings = warnings(&result.case, &result.evaluation, &spec.demands);
     deliver(
         &call.run,
         "optimize",

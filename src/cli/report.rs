@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use bogie::{
+    design::doubts::warnings,
     design::{
         outcome::DesignResult,
         pareto::{self, Front},
         sensitivity::Sensitivity,
     },
-    evaluate::warnings::warnings,
     export::file,
     optimize::archive::Archive,
     report::{Report, charts, page},
@@ -116,7 +116,10 @@ impl Made<'_> {
             progress.chart(&entry.number());
         });
         progress.finish();
-        let all = together(doubts, &warnings(&result.case, &result.evaluation));
+        let all = together(
+            doubts,
+            &warnings(&result.case, &result.evaluation, &spec.demands),
+        );
         let html = page(&Report {
             name,
             source,

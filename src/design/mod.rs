@@ -7,6 +7,7 @@
 
 pub mod compromise;
 pub mod conflict;
+pub mod doubts;
 pub mod explain;
 pub mod form;
 mod lifted;
