@@ -181,10 +181,11 @@ fn what_has_no_value_says_so() {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let names = reader.headers().unwrap().clone();
     let at = |name: &str| names.iter().position(|n| n == name).unwrap();
-    let (acceleration, met, status) = (
+    let (acceleration, met, status, codes) = (
         at("lateral_acceleration_m_per_s2"),
         at("meets_all"),
         at("status"),
+        at("status_codes"),
     );
     let mut unstable = 0;
     for record in reader.records() {
@@ -195,6 +196,7 @@ fn what_has_no_value_says_so() {
             assert_eq!(&record[met], "no");
             assert!(
                 record[status].contains("lateral_acceleration: unstable at the operating speed")
+                    && record[codes].contains("lateral_acceleration: unstable")
             );
         }
     }

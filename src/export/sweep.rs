@@ -1,10 +1,10 @@
 //! Designs of a sweep as a table.
 
-use super::table::Table;
-use crate::design::sweep::{Design, Meets, Sweep};
+use super::{status::failure_code, table::Table};
+use crate::design::sweep::{Design, Meets, NoValue, Sweep};
 
-/// Design, parameters, indices, whether all is met, and a status: `ok`, or which index has no value
-/// and why.
+/// Design, parameters, indices, whether all is met, and a status in words and in codes: `ok`, or which
+/// index has no value and why.
 pub fn table(sweep: &Sweep, designs: &[Design]) -> Table {
     let mut table = Table::new();
     table.count("design", designs.iter().map(|d| d.number as u64));
@@ -20,18 +20,31 @@ pub fn table(sweep: &Sweep, designs: &[Design]) -> Table {
         let meets = |design: &Design| design.meets_all.map_or("", Meets::code);
         table.text("meets_all", designs.iter().map(meets));
     }
-    table.text("status", designs.iter().map(|design| status(sweep, design)));
+    let words = |design| status(sweep, design, ToString::to_string);
+    table.text("status", designs.iter().map(words));
+    let codes = |design| status(sweep, design, |reason| code(*reason));
+    table.text("status_codes", designs.iter().map(codes));
     table
 }
 
-fn status(sweep: &Sweep, design: &Design) -> String {
+/// Code of why a design has no value of an index.
+fn code(reason: NoValue) -> String {
+    match reason {
+        NoValue::Failure(failure) => failure_code(failure),
+        NoValue::Stable(_) => "stable-over-range".into(),
+        NoValue::Hunts(_) => "unstable".into(),
+        NoValue::Unlimited => "not-limited".into(),
+    }
+}
+
+fn status(sweep: &Sweep, design: &Design, of: impl Fn(&NoValue) -> String) -> String {
     let without: Vec<String> = sweep
         .indices()
         .iter()
         .zip(&design.values)
         .filter_map(|(index, value)| {
             let reason = value.as_ref().err()?;
-            Some(format!("{}: {reason}", index.name()))
+            Some(format!("{}: {}", index.name(), of(reason)))
         })
         .collect();
     if without.is_empty() {
