@@ -56,15 +56,6 @@ impl std::fmt::Display for Shown {
 /// Largest cant deficiency of the boundary, degrees, and its steps.
 const BOUNDARY: (f64, usize) = (6.0, 24);
 
-/// A result, or the status of a vehicle with a lifted wheel.
-fn or_lifted<T>(found: Result<T, CurvingError>) -> Result<Result<T, CurveStatus>, CurvingError> {
-    match found {
-        Ok(found) => Ok(Ok(found)),
-        Err(CurvingError::WheelLifted(side)) => Ok(Err(CurveStatus::WheelLifted(side))),
-        Err(error @ (CurvingError::Singular | CurvingError::NoConsistentState)) => Err(error),
-    }
-}
-
 impl Curving {
     /// A case in a curve of `degree` degrees at a cant deficiency φ_d, rad. Without one of them that of
     /// the service; without a curve there either, the tightest without flange contact or slip.
@@ -78,7 +69,7 @@ impl Curving {
         cant_deficiency: Option<f64>,
     ) -> Result<Self, CurvingError> {
         let here = cant_deficiency.unwrap_or_else(|| case.service.cant_deficiency());
-        let limits = or_lifted(CurvingLimits::new(case, here))?;
+        let limits = CurveStatus::or_lifted(CurvingLimits::new(case, here))?;
         let service = case.service.curve.map(f64::to_degrees);
         let (shown, degree) = match (degree, service, cant_deficiency) {
             (Some(degree), _, _) => (Shown::Asked, Some(degree)),
@@ -93,14 +84,17 @@ impl Curving {
             }
         };
         let state = match (degree, &limits) {
-            (Some(degree), _) => or_lifted(CurvingState::new(case, degree, here))?,
+            (Some(degree), _) => CurveStatus::or_lifted(CurvingState::new(case, degree, here))?,
             (None, Err(status)) => Err(*status),
             (None, Ok(limits)) => Ok(CurvingState::new(case, limits.degree(), here)?),
         };
         let (largest, steps) = BOUNDARY;
         let boundary = (0..=steps).map(|i| {
             let angle = (largest * i as f64 / steps as f64).to_radians();
-            Ok((angle, or_lifted(CurvingLimits::new(case, angle))?))
+            Ok((
+                angle,
+                CurveStatus::or_lifted(CurvingLimits::new(case, angle))?,
+            ))
         });
         Ok(Self {
             shown,

@@ -7,7 +7,7 @@
 use super::{Check, NotAssessed, at_most};
 use crate::{
     case::Case,
-    dynamics::curving::{CurvingError, CurvingModel},
+    dynamics::curving::CurvingModel,
     evaluate::{
         Evaluation,
         curving::{CurveStatus, CurvingLimits, CurvingState, ServiceCurve},
@@ -58,22 +58,19 @@ impl Judged {
         let angle = limits::CANT_DEFICIENCY / SUPERELEVATION_BASE;
         let clearance = case.wheel_rail.flange_clearance;
         let given = case.service.curve.map(f64::to_degrees);
-        let (degree, state) = match CurvingModel::new(case, angle) {
+        let model = CurveStatus::or_lifted(CurvingModel::new(case, angle)).ok()?;
+        let (degree, state) = match model {
             Ok(model) => {
                 let tightest = || CurvingLimits::of(&model, clearance, angle).degree();
                 let degree = given.unwrap_or_else(tightest);
                 let state = CurvingState::of(&model, clearance, degree, angle);
-                let status = state.status;
-                let covered = match status {
+                let covered = match state.status {
                     CurveStatus::WithinModel => Ok(state),
-                    CurveStatus::OutsideModel { .. } | CurveStatus::WheelLifted(_) => Err(status),
+                    status => Err(status),
                 };
                 (degree, covered)
             }
-            Err(CurvingError::WheelLifted(side)) => {
-                (given.unwrap_or(0.0), Err(CurveStatus::WheelLifted(side)))
-            }
-            Err(CurvingError::Singular | CurvingError::NoConsistentState) => return None,
+            Err(lifted) => (given.unwrap_or(0.0), Err(lifted)),
         };
         Some(Self::new(given.is_some(), degree, "3 in", state))
     }

@@ -57,10 +57,9 @@ impl ServiceCurve {
             Some(level) => Ok(CurvingState::of(level, clearance, degree, cant_deficiency)),
             None => CurvingState::new(case, degree, cant_deficiency),
         };
-        let (status, state) = match state {
+        let (status, state) = match CurveStatus::or_lifted(state)? {
             Ok(state) => (state.status, Some(state)),
-            Err(CurvingError::WheelLifted(side)) => (CurveStatus::WheelLifted(side), None),
-            Err(error) => return Err(error),
+            Err(lifted) => (lifted, None),
         };
         Ok(Self {
             degree,

@@ -2,7 +2,7 @@
 
 use super::{Limit, first_exceedance};
 use crate::{
-    dynamics::curving::{CurvingModel, Side},
+    dynamics::curving::{CurvingError, CurvingModel, Side},
     index::MET,
 };
 
@@ -44,6 +44,19 @@ impl CurveStatus {
             limit,
             ratio,
         })
+    }
+
+    /// A result, or the status of a vehicle with a lifted wheel.
+    ///
+    /// # Errors
+    ///
+    /// [`CurvingError`] if there is no steady-state solution for another reason.
+    pub fn or_lifted<T>(found: Result<T, CurvingError>) -> Result<Result<T, Self>, CurvingError> {
+        match found {
+            Ok(found) => Ok(Ok(found)),
+            Err(CurvingError::WheelLifted(side)) => Ok(Err(Self::WheelLifted(side))),
+            Err(error @ (CurvingError::Singular | CurvingError::NoConsistentState)) => Err(error),
+        }
     }
 
     /// Name in files.
