@@ -239,6 +239,14 @@ impl Index {
         self.row().sense
     }
 
+    /// The worst of some values; `None` if there is none.
+    pub fn worst(self, values: impl Iterator<Item = f64>) -> Option<f64> {
+        match self.sense() {
+            Sense::AtLeast => values.min_by(f64::total_cmp),
+            Sense::AtMost => values.max_by(f64::total_cmp),
+        }
+    }
+
     /// Part of the behaviour that it belongs to.
     pub const fn behaviour(self) -> Behaviour {
         self.row().behaviour

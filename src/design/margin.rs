@@ -4,7 +4,7 @@ use super::measure::{Wanted, absence, measure_each, worst};
 use crate::{
     case::Case,
     evaluate::curving::{CurveStatus, ServiceCurve},
-    index::{Demand, Demands, Index, Sense},
+    index::{Demand, Demands, Index},
     optimize::problem::Failure,
     spec::Condition,
 };
@@ -107,11 +107,7 @@ pub fn worst_value(case: &Case, conditions: &[Condition], index: Index) -> Resul
     let values = values.map(|case| value(&case, index));
     let values = values.filter(|value| *value != Err(Failure::NoServiceCurve));
     let all: Vec<f64> = values.collect::<Result<_, _>>()?;
-    let worst = match index.sense() {
-        Sense::AtLeast => all.into_iter().min_by(f64::total_cmp),
-        Sense::AtMost => all.into_iter().max_by(f64::total_cmp),
-    };
-    worst.ok_or(Failure::NoServiceCurve)
+    index.worst(all.into_iter()).ok_or(Failure::NoServiceCurve)
 }
 
 /// All demands on a design. A demand on an index of a curve is none where there is no curve.

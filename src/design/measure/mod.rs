@@ -15,7 +15,7 @@ use crate::{
         gradients::Constants,
         ride::{NoRide, VerticalRide},
     },
-    index::{Behaviour, Index, Sense},
+    index::{Behaviour, Index},
     optimize::problem::{Failure, Piece},
     parameter::Parameter,
     track::MAX_DEGREE,
@@ -330,11 +330,7 @@ fn pieces(values: &[f64], gradients: Option<&[Vec<f64>]>) -> Vec<Piece> {
 
 /// The worst value of an index among its pieces.
 pub fn worst(index: Index, pieces: &[Piece]) -> Option<f64> {
-    let values = pieces.iter().map(|p| p.value);
-    match index.sense() {
-        Sense::AtLeast => values.min_by(f64::total_cmp),
-        Sense::AtMost => values.max_by(f64::total_cmp),
-    }
+    index.worst(pieces.iter().map(|p| p.value))
 }
 
 /// Bands kept apart by point.

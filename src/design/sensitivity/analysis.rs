@@ -12,7 +12,7 @@ use super::{
 use crate::{
     case::Case,
     design::measure::{Wanted, absence, is_only_bounded, measure_each},
-    index::{Index, Scale, Sense},
+    index::{Index, Scale},
     optimize::problem::{Failure, Piece},
     spec::{DesignSpace, Spec},
 };
@@ -214,11 +214,7 @@ fn compared(case: &Case, index: Index, pieces: &[Piece]) -> Outcome {
     if values.clone().any(f64::is_nan) {
         return Err(Failure::NotFinite);
     }
-    let worst = match index.sense() {
-        Sense::AtLeast => values.reduce(f64::min),
-        Sense::AtMost => values.reduce(f64::max),
-    };
-    let value = worst.ok_or_else(|| absence(index))?;
+    let value = index.worst(values).ok_or_else(|| absence(index))?;
     if is_only_bounded(case, index, value) {
         return Err(Failure::OnlyBounded);
     }
