@@ -2,7 +2,7 @@
 
 use crate::{
     case::Case,
-    evaluate::{Evaluation, warnings},
+    evaluate::{Evaluation, stroke_in_curve::taken, warnings},
     index::{Demand, Demands, Index},
 };
 
@@ -27,11 +27,9 @@ fn stops_in_curve(evaluation: &Evaluation, demands: &Demands) -> Option<String> 
     // Outside the model the lean is an extrapolation, but a large one tells enough.
     let state = curve.state.as_ref().filter(|_| curve.is_given)?;
     let ride = evaluation.lateral.as_ref().ok()?;
-    let taken = (0..2).map(|j| {
-        let lean = state.secondary_lateral_stroke[j].abs();
-        lean + crate::evaluate::limits::PEAK * ride.secondary_stroke[j]
-    });
-    let taken = taken.fold(0.0, f64::max);
+    let strokes =
+        (0..2).map(|j| taken(state.secondary_lateral_stroke[j], ride.secondary_stroke[j]));
+    let taken = strokes.fold(0.0, f64::max);
     (!stops.met_by(taken)).then(|| {
         format!(
             "in the curve of the service the secondary lateral springs take about {:.1} mm with 3σ, \
