@@ -8,7 +8,7 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 pub const EXIT_CODES: &str = "\
 Exit codes:
   0  done
-  1  a failure: a file that cannot be written, or no design with a result
+  1  a failure: a file that cannot be written, or eigenvalues that cannot be had
   2  a wrong call or an invalid spec
   3  requirements or limits not met or not assessed; the result is the best compromise
   4  ended early, by --budget or Ctrl-C; the result is the best so far, met or not";
