@@ -89,8 +89,25 @@ impl LateralModes {
     ///
     /// # Errors
     ///
-    /// [`EigenError`] if the mode shapes cannot be had.
+    /// [`EigenError`] if the mode shapes, or the eigenvalues of a truck, cannot be had.
     pub fn new(model: &LateralModel, case: &Case, poles: &Poles) -> Result<Self, EigenError> {
+        let mut modes = Self::of_vehicle(model, case, poles)?;
+        if !modes.diverge {
+            modes.kinematic = KinematicMode::new(model, case, poles.speed)?;
+        }
+        Ok(modes)
+    }
+
+    /// As [`LateralModes::new`], without the kinematic mode.
+    ///
+    /// # Errors
+    ///
+    /// [`EigenError`] if the mode shapes cannot be had.
+    pub fn of_vehicle(
+        model: &LateralModel,
+        case: &Case,
+        poles: &Poles,
+    ) -> Result<Self, EigenError> {
         let kinematic = KinematicBand::new(case, poles.speed);
         let system = &model.forced.system;
         let damping = system.damping_at(poles.speed);
@@ -100,9 +117,6 @@ impl LateralModes {
             diverge: poles.diverge(),
             kinematic: None,
         };
-        if !modes.diverge {
-            modes.kinematic = KinematicMode::new(model, case, poles.speed)?;
-        }
         let mut found = Vec::new();
         for &s in &poles.values {
             if s.im > 0.0 {

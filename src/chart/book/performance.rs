@@ -56,7 +56,7 @@ pub fn vertical_passengers(case: &Case) -> Option<[PassengerRide; 3]> {
 
 /// Modes of the lateral model at a speed, m/s; none where there are no eigenvalues.
 pub fn lateral_modes(case: &Case, model: &LateralModel, speed: f64) -> Vec<LateralMode> {
-    let modes =
-        Poles::at(&model.forced, speed).and_then(|poles| LateralModes::new(model, case, &poles));
+    let modes = Poles::at(&model.forced, speed)
+        .and_then(|poles| LateralModes::of_vehicle(model, case, &poles));
     modes.map_or_else(|_| Vec::new(), |modes| modes.oscillatory)
 }

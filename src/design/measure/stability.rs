@@ -126,7 +126,7 @@ impl Lateral<'_> {
         if self.poles.diverge() {
             return Err(Failure::Diverges);
         }
-        let modes = LateralModes::new(&self.model, self.case, &self.poles)
+        let modes = LateralModes::of_vehicle(&self.model, self.case, &self.poles)
             .map_err(|_| Failure::Eigenvalues)?;
         let system = &self.model.forced.system;
         let gradient = |mode: &Mode| -> Vec<f64> {
