@@ -20,7 +20,7 @@
 use super::{
     lifted::{Lifted, solve_lifted},
     missed::{Missed, Reached},
-    study::{Role, Study, Term},
+    study::{Rank, Role, Study, Term},
 };
 use crate::optimize::{
     archive::Archive,
@@ -52,16 +52,19 @@ pub fn compromise(
         effort: found.effort.clone(),
     };
     let mut within = true;
-    if study.demands().any(|i| study.terms()[i].rank() == COVERAGE) {
-        descent.reduce(&[PLAIN], &[])?;
-        descent.reduce(&[COVERAGE], &[PLAIN])?;
+    if study
+        .demands()
+        .any(|i| study.terms()[i].rank() == Rank::Coverage)
+    {
+        descent.reduce(&[Rank::Plain], &[])?;
+        descent.reduce(&[Rank::Coverage], &[Rank::Plain])?;
         let is_outside = |m: &Missed| study.terms()[m.term].implied && !m.met();
         within = !descent.missed.iter().any(is_outside);
     }
     if within {
         // The curve can be covered: forces and strokes in it count as the rest do.
         descent.missed.clear();
-        descent.reduce(&[PLAIN, IN_CURVE], &[COVERAGE])?;
+        descent.reduce(&[Rank::Plain, Rank::InCurve], &[Rank::Coverage])?;
     }
     let Descent {
         x,
@@ -86,11 +89,6 @@ pub fn compromise(
     Ok((last, missed))
 }
 
-/// Ranks of demands, see [`Term::rank`].
-const PLAIN: usize = 0;
-const COVERAGE: usize = 1;
-const IN_CURVE: usize = 2;
-
 /// The lexicographic minimax on its way.
 struct Descent<'a> {
     study: &'a Study,
@@ -105,7 +103,7 @@ struct Descent<'a> {
 impl Descent<'_> {
     /// Makes the violations of the demands of some ranks as small as can be, the largest first, while
     /// those of other ranks are kept.
-    fn reduce(&mut self, ranks: &[usize], kept: &[usize]) -> Result<(), NoDesign> {
+    fn reduce(&mut self, ranks: &[Rank], kept: &[Rank]) -> Result<(), NoDesign> {
         let n = self.x.len();
         while self.archive.stopped().is_none() {
             let (open, terms) = open_shortfall(self.study, ranks, kept, &self.missed);
@@ -201,8 +199,8 @@ fn as_objective(term: &Term) -> Role {
 /// come first, have in the study.
 fn open_shortfall(
     study: &Study,
-    ranks: &[usize],
-    kept: &[usize],
+    ranks: &[Rank],
+    kept: &[Rank],
     missed: &[Missed],
 ) -> (Study, Vec<usize>) {
     let known = |i: usize| missed.iter().find(|m| m.term == i);

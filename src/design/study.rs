@@ -7,7 +7,7 @@ mod problem;
 mod scaling;
 mod term;
 
-pub use term::{Role, Term};
+pub use term::{Rank, Role, Term};
 
 use sha2::{Digest, Sha256};
 

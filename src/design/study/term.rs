@@ -31,6 +31,17 @@ pub enum Role {
     },
 }
 
+/// Kind of a demand, by which demands are met one after another where not all can be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rank {
+    /// On an index that the models always cover.
+    Plain,
+    /// That the linear model covers the service curve.
+    Coverage,
+    /// On a force or stroke in the service curve, assessed only where that is covered.
+    InCurve,
+}
+
 /// An index in an operating condition, and what it is to the study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Term {
@@ -49,15 +60,14 @@ pub struct Term {
 }
 
 impl Term {
-    /// Rank of a demand where not all can be met, the first to be met being 0: what the models
-    /// always cover, then the conditions under which they cover the rest, then the rest.
-    pub fn rank(&self) -> usize {
+    /// Its kind among demands that cannot all be met.
+    pub fn rank(&self) -> Rank {
         if self.implied {
-            1
+            Rank::Coverage
         } else if self.index.is_in_service_curve() {
-            2
+            Rank::InCurve
         } else {
-            0
+            Rank::Plain
         }
     }
 
