@@ -41,24 +41,26 @@ const SWEEPS: [Over; 4] = [
     Over::Decade(Parameter::SecondaryLateralDamping),
 ];
 
+/// The case a share `t` of the way along a sweep.
+fn along(case: &Case, over: Over, t: f64) -> Case {
+    let mut case = case.clone();
+    match over {
+        Over::Conicity => case.wheel_rail.conicity = 0.04 + 0.02 * t,
+        Over::Speed => case.service.speed = 5.0 + 55.0 * t,
+        Over::Decade(parameter) => {
+            let own = parameter.get(&case);
+            parameter.set(&mut case, own * 10_f64.powf(t - 0.5));
+        }
+    }
+    case
+}
+
 /// Values of the index at 400 points: conicities of 0.04 to 0.06, speeds of 5 to 60 m/s, or a decade
 /// about a parameter's own value. `None` if the vehicle diverges anywhere.
 fn sweep(case: &Case, over: Over) -> Option<Vec<f64>> {
     const POINTS: u32 = 400;
     (0..POINTS)
-        .map(|k| {
-            let t = f64::from(k) / f64::from(POINTS - 1);
-            let mut case = case.clone();
-            match over {
-                Over::Conicity => case.wheel_rail.conicity = 0.04 + 0.02 * t,
-                Over::Speed => case.service.speed = 5.0 + 55.0 * t,
-                Over::Decade(parameter) => {
-                    let own = parameter.get(&case);
-                    parameter.set(&mut case, own * 10_f64.powf(t - 0.5));
-                }
-            }
-            index(&case)
-        })
+        .map(|k| index(&along(case, over, f64::from(k) / f64::from(POINTS - 1))))
         .collect()
 }
 
@@ -106,19 +108,7 @@ fn steps_of_random_vehicles_fall_with_the_distance() {
                 .max_by(|(_, a), (_, b)| (a[1] - a[0]).abs().total_cmp(&(b[1] - b[0]).abs()))
                 .unwrap();
             // Between the two points with the largest step, a thousand times finer.
-            let part = |t: f64| {
-                let mut case = case.clone();
-                let t = (at as f64 + t) / 399.0;
-                match over {
-                    Over::Conicity => case.wheel_rail.conicity = 0.04 + 0.02 * t,
-                    Over::Speed => case.service.speed = 5.0 + 55.0 * t,
-                    Over::Decade(parameter) => {
-                        let own = parameter.get(&case);
-                        parameter.set(&mut case, own * 10_f64.powf(t - 0.5));
-                    }
-                }
-                index(&case).unwrap()
-            };
+            let part = |t: f64| index(&along(&case, over, (at as f64 + t) / 399.0)).unwrap();
             let (mut low, mut high) = (0.0, 1.0);
             for _ in 0..10 {
                 let middle = f64::midpoint(low, high);
