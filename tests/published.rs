@@ -365,6 +365,7 @@ fn validation_table() -> String {
         let best = study.design(&solved.point.x);
         let status = match solved.status {
             Status::Optimal => "optimal",
+            Status::BestFound => "best found",
             Status::Stalled => "stalled",
             Status::Infeasible => "out of reach",
             Status::BudgetSpent | Status::Interrupted => "ended early",

@@ -14,8 +14,9 @@ use bogie::{
     optimize::{
         archive::Archive,
         journal::{Entry, Header, Journal, JournalError},
+        solve::UNSEEN_THOROUGH,
     },
-    spec::FRONT_POINTS,
+    spec::{FRONT_POINTS, Spec},
 };
 
 use super::{
@@ -28,7 +29,8 @@ use super::{
 };
 
 pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
-    let named = input::read(&call.run.source.spec)?;
+    let mut named = input::read(&call.run.source.spec)?;
+    set(&mut named.spec, &call.search);
     if let Some(page) = &call.report {
         report::ready(page)?;
     }
@@ -40,7 +42,7 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
         ..
     } = &named;
     let progress = Line::new();
-    let header = header("optimize", digest);
+    let header = header("optimize", &format!("{digest}{}", call.search.written()));
     let archive = archive(&progress, &call.search, call.run.out.as_deref(), &header)?;
     let designed = procedure::design_beside(spec, &archive, |case| {
         let watch = Watch {
@@ -90,6 +92,7 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
         warnings,
         ..
     } = input::read(&call.source.spec)?;
+    set(&mut spec, &call.search);
     if !call.indices.is_empty() {
         spec.front.indices = indices(&call.indices)?;
         if !(2..=3).contains(&spec.front.indices.len()) {
@@ -114,7 +117,12 @@ pub fn pareto(call: &Pareto) -> Result<Done, Failure> {
         )));
     }
     let progress = Line::new();
-    let search = format!("{digest} {} {}", traded.join(","), spec.front.points);
+    let search = format!(
+        "{digest} {} {}{}",
+        traded.join(","),
+        spec.front.points,
+        call.search.written()
+    );
     let header = header("pareto", &search);
     let archive = archive(&progress, &call.search, call.out.as_deref(), &header)?;
     let front = pareto::pareto(&spec, &archive);
@@ -232,6 +240,13 @@ fn deliver_table(
         TableFormat::Parquet => (table().parquet().map_err(failed)?, "parquet"),
     };
     output::write(content, out, &format!("{command}.{ending}"))
+}
+
+/// Puts options of a search in place of what the spec says.
+fn set(spec: &mut Spec, search: &Search) {
+    if search.thorough {
+        spec.design.unseen = spec.design.unseen.min(UNSEEN_THOROUGH);
+    }
 }
 
 /// What a journal must belong to: all that decides the search but the budget, which may be raised.

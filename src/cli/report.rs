@@ -60,8 +60,9 @@ pub fn optimized(
         .budget
         .map_or_else(String::new, |n| format!(" --budget {n}"));
     let command = format!(
-        "bogie optimize {0}.toml{limit} --report {0}.html",
-        named.name
+        "bogie optimize {0}.toml{limit}{1} --report {0}.html",
+        named.name,
+        call.search.written()
     );
     let made = Made {
         named,

@@ -111,7 +111,7 @@ impl Descent<'_> {
                 break;
             }
             let from = self.start.clone().with(vec![self.x.clone()]);
-            let closest = solve_lifted(&open, &from.thoroughly(), self.archive)?;
+            let closest = solve_lifted(&open, &from, self.archive)?;
             self.effort.add(&closest.solved.effort);
             self.x = closest.solved.point.x[..n].to_vec();
             let held = match &closest.solved.point.values {
@@ -143,7 +143,7 @@ pub fn feasible(
 ) -> Result<Option<Vec<f64>>, NoDesign> {
     let n = study.parameters().len();
     let from = start.clone().with(vec![found.point.x[..n].to_vec()]);
-    let closest = solve_lifted(&shortfall(study), &from.thoroughly(), archive)?;
+    let closest = solve_lifted(&shortfall(study), &from, archive)?;
     let x = closest.solved.point.x[..n].to_vec();
     let meets_all = study.evaluate(&x).is_ok_and(|values| values.feasible());
     Ok(meets_all.then_some(x))

@@ -12,7 +12,7 @@ use crate::{
         certificate::Curvature,
         local::Status,
         problem::{Detail, Problem, Values, Variable, largest},
-        solve::Effort,
+        solve::{Coverage, Effort, Optimum},
     },
     parameter::Parameter,
 };
@@ -55,6 +55,20 @@ pub struct Objective {
     pub per_merit: f64,
 }
 
+/// A local optimum of the objective.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LocalOptimum {
+    /// Σ of the scaled objectives; `None` for the design of least violation, where searches ended
+    /// without a feasible one.
+    pub merit: Option<f64>,
+    /// Value of the objective's index, SI, where it is a single one and a design is feasible.
+    pub value: Option<f64>,
+    /// Values of the variables, SI, in the order of [`Explained::chosen`].
+    pub at: Vec<f64>,
+    /// Local searches that came to it.
+    pub searches: usize,
+}
+
 /// A solved study explained.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Explained {
@@ -80,6 +94,10 @@ pub struct Explained {
     pub active: Vec<String>,
     /// Demands that hold it back, with their prices.
     pub prices: Vec<Price>,
+    /// Different local optima that were found, the best first.
+    pub optima: Vec<LocalOptimum>,
+    /// How far the space was searched for others; `None` where the search stayed near designs known.
+    pub coverage: Option<Coverage>,
     /// What was spent.
     pub effort: Effort,
 }
@@ -106,6 +124,8 @@ impl Explained {
             is_relaxed: !searched.missed.is_empty(),
             active: Vec::new(),
             prices: Vec::new(),
+            optima: optima(study, &solved.optima),
+            coverage: solved.coverage,
             effort: solved.effort.clone(),
         };
         let slopes = objective_slopes(study, x);
@@ -169,6 +189,34 @@ impl Explained {
             .map_or(1.0, |o| (o.per_merit / o.value).abs());
         share * chosen.bound_price
     }
+}
+
+/// The local optima of a study in its own terms.
+fn optima(study: &Study, found: &[Optimum]) -> Vec<LocalOptimum> {
+    let place = |x: &[f64]| {
+        let pairs = study
+            .variables()
+            .iter()
+            .zip(x)
+            .take(study.parameters().len());
+        pairs.map(|(variable, x)| variable.value(*x)).collect()
+    };
+    let optimum = |optimum: &Optimum| {
+        let point = &optimum.found.point;
+        let values = point
+            .values
+            .as_ref()
+            .ok()
+            .filter(|values| values.feasible());
+        let objective = values.and_then(|values| single_objective(study, values));
+        LocalOptimum {
+            merit: values.map(Values::objective),
+            value: objective.map(|objective| objective.value),
+            at: place(&point.x),
+            searches: optimum.searches,
+        }
+    };
+    found.iter().map(optimum).collect()
 }
 
 /// Pieces this close to the largest decide with it which way the objective goes.

@@ -3,7 +3,7 @@
 use super::study::Study;
 use crate::optimize::{
     archive::Archive,
-    local::WIDE,
+    local::{Status, WIDE},
     problem::Values,
     solve::{NoDesign, Solved, Start, solve},
 };
@@ -40,7 +40,8 @@ pub fn solve_lifted(study: &Study, start: &Start, archive: &Archive) -> Result<L
     if archive.stopped().is_some() {
         return Ok(plain(solved));
     }
-    let designs = solved.ends.iter().chain([&solved.point.x]);
+    let optima = solved.optima.iter().map(|optimum| &optimum.found.point.x);
+    let designs = optima.chain([&solved.point.x]);
     let designs: Vec<Vec<f64>> = designs.filter_map(|x| study.lift(x).ok()).collect();
     let start = Start {
         radius: WIDE / 4.0,
@@ -63,6 +64,10 @@ pub fn solve_lifted(study: &Study, start: &Start, archive: &Archive) -> Result<L
     better.effort.add(&first);
     better.effort.starts = first.starts;
     better.effort.agreed = first.agreed;
+    better.coverage = solved.coverage;
+    if better.status == Status::Optimal && solved.coverage.is_some_and(|c| !c.is_enough()) {
+        better.status = Status::BestFound;
+    }
     Ok(Lifted {
         study: lifted,
         solved: better,

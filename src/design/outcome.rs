@@ -10,7 +10,12 @@ use crate::{
     dynamics::EigenError,
     evaluate::Evaluation,
     index::Index,
-    optimize::{archive::Stop, local::Status, problem::Failure, solve::Effort},
+    optimize::{
+        archive::Stop,
+        local::Status,
+        problem::Failure,
+        solve::{Coverage, Effort},
+    },
     parameter::{Parameter, TradeOff},
     spec::Spec,
 };
@@ -26,8 +31,6 @@ pub struct StageResult {
     pub unused: Vec<Parameter>,
     /// Profiles tried.
     pub profiles: Vec<Profile>,
-    /// Conicities of profiles that had no hope to do better and were not pursued.
-    pub given_up: Vec<f64>,
 }
 
 impl StageResult {
@@ -47,6 +50,8 @@ pub struct Profile {
     pub conicity: f64,
     /// How its search ended.
     pub status: Status,
+    /// How far the space was searched; `None` where the search stayed near designs known.
+    pub coverage: Option<Coverage>,
     /// Critical speed, m/s; `None`: stable over the range searched.
     pub critical_speed: Option<f64>,
     /// Degree curve, degrees.
@@ -57,8 +62,6 @@ pub struct Profile {
     pub lateral_stiffness: f64,
     /// Its design, from which a later round goes on.
     pub(super) case: Case,
-    /// Class, and the objective or the violation, by which profiles are ranked.
-    pub(super) rank: (u8, f64),
 }
 
 /// What the joint optimisation gained over the sequential one.

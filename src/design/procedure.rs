@@ -25,7 +25,7 @@ use crate::{
     optimize::{
         archive::{Archive, Stop},
         problem::Problem,
-        solve::Effort,
+        solve::{Effort, Start},
     },
     parameter::TradeOff,
     spec::{Order, Spec},
@@ -173,6 +173,11 @@ impl Procedure<'_> {
         (chosen, made)
     }
 
+    /// Everywhere, as thoroughly as the spec asks.
+    fn start(&self) -> Start {
+        Start::everywhere(self.spec.design.seed).until(self.spec.design.unseen)
+    }
+
     fn margins(&self, case: &Case) -> Vec<Margin> {
         margins(case, &self.spec.demands, &self.spec.conditions)
     }
@@ -193,7 +198,7 @@ impl Procedure<'_> {
             trade_off: None,
             known: None,
             also: &[],
-            seed: self.spec.design.seed,
+            start: self.start(),
         });
         let stages: Vec<Stage> = stage.into_iter().collect();
         Chosen {
@@ -219,35 +224,49 @@ impl Procedure<'_> {
             .filter(|t| *t != TradeOff::Vertical)
             .collect();
         if open.contains(&TradeOff::Vertical)
-            && let Ok(stage) = self.trade_off(&now, TradeOff::Vertical, None, 0)
+            && let Ok(stage) = self.trade_off(&now, TradeOff::Vertical, None, self.start(), 0)
         {
             now = stage.case.clone();
             stages.push(stage);
         }
         let mut rounds = 0;
         let mut settled = coupled.is_empty();
+        // The first round looks everywhere and the next follow the designs found; the last looks
+        // everywhere again, as what holds then is not what held at first.
+        let mut everywhere = true;
         while !settled && rounds < ROUNDS && self.archive.stopped().is_none() {
             let mut moved: f64 = 0.0;
             for trade_off in &coupled {
                 let at = stages
                     .iter()
                     .position(|s| s.result.trade_off == Some(*trade_off));
-                let known = at.map(|i| &stages[i].result);
-                let Ok(mut stage) = self.trade_off(&now, *trade_off, known, rounds) else {
+                let known = at.map(|i| &stages[i].result).filter(|_| rounds > 0);
+                let start = if everywhere {
+                    self.start()
+                } else {
+                    Start::near(Vec::new())
+                };
+                let Ok(mut stage) = self.trade_off(&now, *trade_off, known, start, rounds) else {
                     break;
                 };
                 moved = moved.max(stage.moved);
                 now = stage.case.clone();
                 match at {
                     Some(i) => {
-                        stage.result.absorb(&stages[i].result);
+                        stage
+                            .result
+                            .explained
+                            .effort
+                            .add(&stages[i].result.explained.effort);
                         stages[i] = stage;
                     }
                     None => stages.push(stage),
                 }
             }
             rounds += 1;
-            settled = moved < UNCHANGED || coupled.len() < 2;
+            let unchanged = moved < UNCHANGED || coupled.len() < 2;
+            settled = unchanged && everywhere;
+            everywhere = unchanged;
         }
         Chosen {
             case: now,
@@ -264,6 +283,7 @@ impl Procedure<'_> {
         now: &Case,
         trade_off: TradeOff,
         known: Option<&StageResult>,
+        start: Start,
         round: usize,
     ) -> Result<Stage, Stop> {
         self.archive
@@ -273,7 +293,7 @@ impl Procedure<'_> {
             trade_off: Some(trade_off),
             known,
             also: &[],
-            seed: self.spec.design.seed,
+            start,
         })
     }
 
@@ -287,7 +307,7 @@ impl Procedure<'_> {
                 trade_off: None,
                 known: None,
                 also: &[sequential.clone(), given.clone()],
-                seed: self.spec.design.seed,
+                start: self.start(),
             })
             .ok()?;
         // In the terms of the task, whether or not the solution is lifted.

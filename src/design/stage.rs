@@ -21,9 +21,6 @@ use crate::{
     parameter::{Parameter, TradeOff},
 };
 
-/// Objective behind the best down to which a profile may still win in a later round: 5 %.
-const RACE: f64 = 0.05;
-
 /// A design found for one profile.
 pub struct Candidate {
     /// The study and its solution.
@@ -51,21 +48,21 @@ pub struct StageInput<'a> {
     pub now: &'a Case,
     /// `None` for all at once.
     pub trade_off: Option<TradeOff>,
-    /// The result of an earlier round: only profiles still in the race are followed.
+    /// The result of an earlier round, whose designs are looked at too.
     pub known: Option<&'a StageResult>,
     /// Other designs to begin from.
     pub also: &'a [Case],
-    /// Seed of the global search.
-    pub seed: u64,
+    /// Where the search begins but for designs.
+    pub start: Start,
 }
 
 impl StageInput<'_> {
     fn choices(&self, tasks: &Tasks) -> Vec<f64> {
         let chooses = matches!(self.trade_off, None | Some(TradeOff::StabilityCurving));
-        match (chooses, self.known) {
-            (false, _) => vec![self.now.wheel_rail.conicity],
-            (true, None) => tasks.profiles(self.now),
-            (true, Some(known)) => in_the_race(known, tasks.profiles(self.now)),
+        if chooses {
+            tasks.profiles(self.now)
+        } else {
+            vec![self.now.wheel_rail.conicity]
         }
     }
 
@@ -76,13 +73,12 @@ impl StageInput<'_> {
         }
     }
 
-    /// The study of a profile, where its search begins when another has reached `beat`, and the
-    /// parameters without influence, which it leaves out.
+    /// The study of a profile, where its search begins, and the parameters without influence, which
+    /// it leaves out.
     fn begin(
         &self,
         tasks: &Tasks,
         conicity: f64,
-        beat: f64,
         archive: &Archive,
     ) -> (Study, Start, Vec<Parameter>) {
         let mut case = self.now.clone();
@@ -91,26 +87,21 @@ impl StageInput<'_> {
         let without = unused(&study, &study.coordinates(self.now), archive);
         let parameters = without.iter().map(|i| study.parameters()[*i]).collect();
         let study = study.without(&without);
-        let current = study.coordinates(self.now);
-        let start = match self.known {
-            None => Start::everywhere(self.seed).with(vec![current]),
-            Some(known) => {
-                let own = known.profiles.iter().find(|p| same(p.conicity, conicity));
-                Start::near(vec![own.map_or(current, |p| study.coordinates(&p.case))])
-            }
-        };
-        let also = self.also.iter().map(|case| study.coordinates(case));
-        let start = Start {
-            // All at once only the profiles that may win matter; in turn the table shows each.
-            gives_up: self.trade_off.is_none(),
-            beat,
-            ..start.with(also.collect())
+        let known = self.known.iter().flat_map(|known| &known.profiles);
+        let own = known.into_iter().find(|p| same(p.conicity, conicity));
+        let first = own.map_or(self.now, |own| &own.case);
+        let designs = std::iter::once(first).chain(self.also);
+        let designs = designs.map(|case| study.coordinates(case)).collect();
+        let start = match own {
+            // Everywhere was looked for what comes nearest to the demands.
+            Some(own) if own.status == Status::Infeasible => Start::near(designs),
+            _ => self.start.clone().with(designs),
         };
         (study, start, parameters)
     }
 }
 
-/// Solves a task for every profile to choose from, or only those still in the race. Where no design
+/// Solves a task for every profile to choose from, with equal effort for each. Where no design
 /// of any profile can be evaluated, the design at hand stays.
 ///
 /// # Errors
@@ -120,10 +111,8 @@ pub fn solve(input: &StageInput, tasks: &Tasks, archive: &Archive) -> Result<Sta
     let mut best: Option<Candidate> = None;
     let mut profiles = Vec::new();
     let mut effort = Effort::default();
-    let mut given_up = Vec::new();
-    let mut beat = f64::INFINITY;
     for conicity in input.choices(tasks) {
-        let (study, start, unused) = input.begin(tasks, conicity, beat, archive);
+        let (study, start, unused) = input.begin(tasks, conicity, archive);
         let searched = match search(&study, &start, archive) {
             Ok(searched) => searched,
             Err(NoDesign::Failed(reason)) => at_hand(study, input.now, reason),
@@ -135,18 +124,9 @@ pub fn solve(input: &StageInput, tasks: &Tasks, archive: &Archive) -> Result<Sta
             unused,
             conicity,
         };
-        let solved = &candidate.searched.solved;
-        // A profile that was given up has no optimum to show.
-        if input.trade_off.is_some() || solved.status != Status::Stalled {
-            profiles.push(profile(&candidate));
-        } else {
-            given_up.push(conicity);
-        }
-        effort.add(&solved.effort);
+        profiles.push(profile(&candidate));
+        effort.add(&candidate.searched.solved.effort);
         if best.as_ref().is_none_or(|best| candidate.is_better(best)) {
-            if let (0, objective) = candidate.rank() {
-                beat = objective;
-            }
             best = Some(candidate);
         }
         if archive.stopped().is_some() {
@@ -166,6 +146,11 @@ pub fn solve(input: &StageInput, tasks: &Tasks, archive: &Archive) -> Result<Sta
     let mut explained = Explained::new(&best.searched, goal);
     explained.effort.evaluations = effort.evaluations;
     explained.effort.failures = effort.failures;
+    let is_best_found = |p: &Profile| p.status == Status::BestFound;
+    if explained.status == Status::Optimal && profiles.iter().any(is_best_found) {
+        // The other profile may have a better optimum.
+        explained.status = Status::BestFound;
+    }
     profiles.sort_by(|a, b| a.conicity.total_cmp(&b.conicity));
     Ok(Stage {
         result: StageResult {
@@ -173,7 +158,6 @@ pub fn solve(input: &StageInput, tasks: &Tasks, archive: &Archive) -> Result<Sta
             explained,
             unused: best.unused.clone(),
             profiles,
-            given_up,
         },
         case: study.design(&solved.point.x),
         moved,
@@ -192,7 +176,8 @@ fn at_hand(study: Study, now: &Case, reason: Failure) -> Searched {
             status: Status::Failed(reason),
             certificate: None,
             effort: Effort::default(),
-            ends: Vec::new(),
+            optima: Vec::new(),
+            coverage: None,
         },
         asked: study.clone(),
         study,
@@ -243,52 +228,11 @@ fn profile(candidate: &Candidate) -> Profile {
     Profile {
         conicity: case.wheel_rail.conicity,
         status: solved.status,
+        coverage: solved.coverage,
         critical_speed: stability.ok().and_then(|s| s.critical_speed()),
         degree: CurvingLimits::new(&case, 0.0).map_or(0.0, |limits| limits.degree()),
         bending_stiffness: case.vehicle.bending_stiffness(),
         lateral_stiffness: case.vehicle.suspension.primary.lateral_stiffness,
-        rank: candidate.rank(),
         case,
-    }
-}
-
-/// Profiles nearly as good as the best: later rounds change little.
-fn in_the_race(known: &StageResult, all: Vec<f64>) -> Vec<f64> {
-    let best = known
-        .profiles
-        .iter()
-        .map(|p| p.rank)
-        .min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let near =
-        |p: &Profile| best.is_some_and(|(class, rank)| p.rank.0 == class && p.rank.1 < rank + RACE);
-    all.into_iter()
-        .filter(|c| {
-            known
-                .profiles
-                .iter()
-                .any(|p| same(p.conicity, *c) && near(p))
-        })
-        .collect()
-}
-
-impl StageResult {
-    /// Adds what an earlier round spent, and its profiles that left the race.
-    pub(super) fn absorb(&mut self, earlier: &Self) {
-        let first = &earlier.explained.effort;
-        self.explained.effort.add(first);
-        // The first round looked everywhere; later ones follow.
-        self.explained.effort.starts = first.starts;
-        self.explained.effort.agreed = first.agreed;
-        for profile in &earlier.profiles {
-            if !self
-                .profiles
-                .iter()
-                .any(|p| same(p.conicity, profile.conicity))
-            {
-                self.profiles.push(profile.clone());
-            }
-        }
-        self.profiles
-            .sort_by(|a, b| a.conicity.total_cmp(&b.conicity));
     }
 }

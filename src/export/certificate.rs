@@ -49,14 +49,11 @@ pub(crate) fn certificate(sheet: &mut Sheet, explained: &Explained) {
             .into(),
         );
     }
-    match effort.starts {
-        _ if explained.status == Status::Infeasible => {}
-        0 => {}
-        1 => parts.push("1 start".into()),
-        n => parts.push(format!("{} of {n} starts agree", effort.agreed)),
-    }
     parts.push(format!("{} evaluations", effort.evaluations));
     sheet.line(&parts.join("; "));
+    if explained.status != Status::Infeasible {
+        optima(sheet, explained);
+    }
     if effort.failed() > 0 {
         let failures: Vec<String> = effort
             .failures
@@ -64,6 +61,62 @@ pub(crate) fn certificate(sheet: &mut Sheet, explained: &Explained) {
             .map(|(failure, count)| format!("{count} × {failure}"))
             .collect();
         sheet.line(&format!("without a result: {}", failures.join("; ")));
+    }
+}
+
+/// How many local optima were found and how far was looked for others; with several, where they are.
+fn optima(sheet: &mut Sheet, explained: &Explained) {
+    /// Local optima in the table; all are in the JSON result.
+    const SHOWN: usize = 6;
+    let Some(coverage) = explained.coverage else {
+        return;
+    };
+    let found = &explained.optima;
+    let count = match found.len() {
+        1 => "1 local optimum".into(),
+        n => format!("{n} local optima"),
+    };
+    let share = significant(100.0 * coverage.unseen, 2);
+    let bound = if coverage.is_enough() {
+        String::new()
+    } else {
+        format!(", more than {} %", significant(100.0 * coverage.bound, 2))
+    };
+    sheet.line(&format!(
+        "{count} from {} uniform starts and {} others; basins not yet seen: about {share} % of the \
+         space{bound}",
+        coverage.uniform,
+        explained.effort.starts - coverage.uniform
+    ));
+    if found.len() < 2 {
+        return;
+    }
+    let rows: Vec<Vec<String>> = found
+        .iter()
+        .take(SHOWN)
+        .map(|optimum| {
+            let objective = match (optimum.value, explained.objective, optimum.merit) {
+                (Some(si), Some(objective), _) => value(objective.index.quantity(), si),
+                (_, _, Some(merit)) => format!("{merit:.4}"),
+                (_, _, None) => "not feasible".into(),
+            };
+            let at = explained.chosen.iter().zip(&optimum.at);
+            let at = at.map(|(chosen, si)| value(chosen.variable.quantity, *si));
+            [objective, optimum.searches.to_string()]
+                .into_iter()
+                .chain(at)
+                .collect()
+        })
+        .collect();
+    let objective = match explained.objective {
+        Some(objective) => objective.index.words(),
+        None => "sum (smaller is better)",
+    };
+    let symbols = explained.chosen.iter().map(|chosen| chosen.variable.symbol);
+    let header: Vec<&str> = [objective, "searches"].into_iter().chain(symbols).collect();
+    sheet.table(&header, &[], &rows);
+    if found.len() > SHOWN {
+        sheet.line(&format!("{} more local optima", found.len() - SHOWN));
     }
 }
 

@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use super::{evaluation_json, origin::sign, status};
 use crate::{
     design::{
-        explain::{Bound, Chosen, Explained},
+        explain::{Bound, Chosen, Explained, LocalOptimum},
         form::form,
         margin::{Margin, Verdict},
         outcome::{Delivered, DesignResult, Profile, StageResult},
@@ -141,6 +141,7 @@ pub(super) fn stage(stage: &StageResult) -> Value {
         active,
         prices,
         effort,
+        coverage,
         ..
     } = &stage.explained;
     json!({
@@ -158,6 +159,10 @@ pub(super) fn stage(stage: &StageResult) -> Value {
         "second_order": stage.explained.curvature.map(curvature),
         "starts": effort.starts,
         "starts_agreed": effort.agreed,
+        "optima": stage.explained.optima.iter().map(|o| optimum(&stage.explained, o)).collect::<Vec<_>>(),
+        "uniform_starts": coverage.map(|coverage| coverage.uniform),
+        "unseen_share": coverage.map(|coverage| coverage.unseen),
+        "unseen_bound": coverage.map(|coverage| coverage.bound),
         "evaluations": effort.evaluations,
         "failed_evaluations": effort.failed(),
         "failures": failures_of(&effort.failures),
@@ -165,8 +170,22 @@ pub(super) fn stage(stage: &StageResult) -> Value {
         "without_influence": stage.unused.iter().map(|p| p.name()).collect::<Vec<_>>(),
         "active": active,
         "prices": prices.iter().map(|p| price(&stage.explained, p)).collect::<Vec<_>>(),
-        "profiles_not_pursued": stage.given_up,
+        "profiles_not_pursued": [],
         "profiles": stage.profiles.iter().map(profile).collect::<Vec<_>>(),
+    })
+}
+
+fn optimum(explained: &Explained, optimum: &LocalOptimum) -> Value {
+    let names = explained.chosen.iter().map(|c| c.parameter.name());
+    let at: serde_json::Map<String, Value> = names
+        .zip(&optimum.at)
+        .map(|(name, si)| (name.to_owned(), json!(si)))
+        .collect();
+    json!({
+        "merit": optimum.merit,
+        "objective_si": optimum.value,
+        "variables_si": at,
+        "searches": optimum.searches,
     })
 }
 
@@ -214,6 +233,7 @@ fn profile(p: &Profile) -> Value {
         "conicity": p.conicity,
         "status": status::code(p.status),
         "status_text": status::words(p.status),
+        "unseen_share": p.coverage.map(|coverage| coverage.unseen),
         "critical_speed_m_per_s": p.critical_speed,
         "degree_curve_deg": p.degree,
         "bending_stiffness_n_m_per_rad": p.bending_stiffness,

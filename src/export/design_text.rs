@@ -138,7 +138,6 @@ pub(crate) fn trade_off(sheet: &mut Sheet, stage: &StageResult) {
             &rows,
         );
     }
-    given_up(sheet, stage);
 }
 
 /// Open parameters without influence.
@@ -152,17 +151,6 @@ fn unused(sheet: &mut Sheet, stage: &StageResult) {
         sheet.line(&format!(
             "without influence here, left as given: {}",
             names.join(", ")
-        ));
-    }
-}
-
-/// Profiles that were not pursued.
-fn given_up(sheet: &mut Sheet, stage: &StageResult) {
-    if !stage.given_up.is_empty() {
-        let list: Vec<String> = stage.given_up.iter().map(|c| significant(*c, 3)).collect();
-        sheet.line(&format!(
-            "no hope to do better, not pursued: conicity {}",
-            list.join(", ")
         ));
     }
 }

@@ -21,6 +21,7 @@ pub fn failure_code(failure: Failure) -> String {
 pub fn code(status: Status) -> String {
     match status {
         Status::Optimal => "optimal".into(),
+        Status::BestFound => "best-found".into(),
         Status::Stalled => "not-converged".into(),
         Status::Infeasible => "infeasible".into(),
         Status::BudgetSpent | Status::Interrupted => "ended-early".into(),
@@ -32,6 +33,7 @@ pub fn code(status: Status) -> String {
 pub(crate) fn words(status: Status) -> String {
     match status {
         Status::Optimal => "optimal".into(),
+        Status::BestFound => "best found, other optima not ruled out".into(),
         Status::Stalled => "feasible, but not converged to an optimum".into(),
         Status::Infeasible => {
             "demands out of reach: best among the designs of least violation".into()

@@ -201,6 +201,10 @@ impl<'a> Archive<'a> {
                 kept.stopped = Some(Stop::Interrupted);
                 continue;
             };
+            // Another search may have measured the same design meanwhile.
+            if kept.known.contains_key(&bits[i]) {
+                continue;
+            }
             kept.count += 1;
             if let Err(failure) = measured {
                 *kept.failures.entry(failure).or_default() += 1;
@@ -234,6 +238,11 @@ impl<'a> Archive<'a> {
         } else {
             key
         }
+    }
+
+    /// Whether the number of evaluations is limited.
+    pub fn has_budget(&self) -> bool {
+        self.budget < usize::MAX
     }
 
     /// Evaluations so far.

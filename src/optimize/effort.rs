@@ -20,14 +20,12 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// Adds another search's.
+    /// Adds what another search has spent; local searches stay those of this one.
     pub fn add(&mut self, other: &Self) {
         self.evaluations += other.evaluations;
         for (failure, count) in &other.failures {
             *self.failures.entry(*failure).or_default() += count;
         }
-        self.starts += other.starts;
-        self.agreed += other.agreed;
         self.seconds += other.seconds;
     }
 

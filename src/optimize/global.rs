@@ -1,75 +1,325 @@
-//! Global phase: an even covering and a particle swarm (argmin) over the whole range of the
-//! variables.
+//! Global phase: local searches from uniform points, and from the far ends of the best design's
+//! variables, until basins not yet seen are unlikely. A solver of argmin, one round of searches an
+//! iteration.
+//!
+//! Multistart with the stopping rule of [`super::basins`]. Points where the models have no answer
+//! (an unstable vehicle has no ride) are drawn again: shares are of the space that can be
+//! evaluated. Of two optima of a suspension one is often stiff at a bound where the other is soft:
+//! from the best design found, each variable is put to the end of its range that is far away and
+//! the search goes on from there, and again from what is better.
 
-use std::borrow::Borrow;
+use std::collections::VecDeque;
 
-use argmin::{
-    core::{CostFunction, Error, Executor},
-    solver::particleswarm::ParticleSwarm,
+use argmin::core::{
+    CostFunction, Error, Executor, IterState, KV, Problem as Counted, Solver, TerminationReason,
+    TerminationStatus,
 };
-use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
+use rand_chacha::{
+    ChaCha8Rng,
+    rand_core::{RngCore, SeedableRng},
+};
+use rayon::prelude::*;
 
-use super::{archive::Stop, evaluations::Evaluations, problem::Point};
+use super::{
+    archive::{Archive, Stop},
+    basins::{Basins, is_overtaken, unseen},
+    evaluations::Evaluations,
+    local::{self, Found, Status},
+    problem::{Point, Problem},
+    start::{Everywhere, Start},
+};
 
-/// Designs of the first, even covering of the box, per variable.
-const COVERING_PER_VARIABLE: usize = 8;
-/// Particles per variable, and sweeps of the swarm.
-const PARTICLES_PER_VARIABLE: usize = 4;
-const SWEEPS: usize = 2;
-/// Evaluations of the global phase per variable.
-pub(super) const EVALUATIONS_PER_VARIABLE: usize =
-    COVERING_PER_VARIABLE + PARTICLES_PER_VARIABLE * (1 + SWEEPS);
-/// Price of a violation in the swarm's merit.
+/// Local searches of a round, side by side on any number of threads.
+const ROUND: usize = 4;
+/// Uniform points evaluated at a time.
+const BATCH: usize = 2 * ROUND;
+/// Local optima up to which the stopping rule is followed; problems with more are left with the
+/// best that was found.
+const MANY: f64 = 14.0;
+/// Uniform points drawn per variable before the first that can be evaluated, and for every later
+/// one.
+const DRAWS: usize = 40;
+/// An end of a variable's range is far from a design if it is this far, scaled.
+const FAR: f64 = 0.3;
+/// Times that a search goes on from a design better than what the searches that met it came to.
+const AGAIN_FROM_BEST: usize = 3;
+/// Price of a violation in the merit that argmin watches.
 const PENALTY: f64 = 20.0;
-/// Price by which starts of the local search are ranked: lower, because what is a few per cent
-/// short of a requirement here may still be best once the requirement is met.
-pub(super) const START_PENALTY: f64 = 4.0;
-/// Distance of the starts of the local search, in at least one direction.
-pub(super) const APART: f64 = 0.12;
 
-struct Merit<'a, 'b>(&'a Evaluations<'b>);
-
-impl CostFunction for Merit<'_, '_> {
+/// The merit of a design, as argmin sees it.
+impl CostFunction for Evaluations<'_> {
     type Param = Vec<f64>;
     type Output = f64;
 
     fn cost(&self, x: &Vec<f64>) -> Result<f64, Error> {
-        Ok(self.0.at(x)?.merit(PENALTY))
-    }
-
-    /// A sweep goes to the archive as a whole, which keeps its order whatever the threads do.
-    fn bulk_cost<P: Borrow<Vec<f64>> + Sync>(&self, sweep: &[P]) -> Result<Vec<f64>, Error> {
-        let designs: Vec<Vec<f64>> = sweep.iter().map(|x| x.borrow().clone()).collect();
-        let points = self.0.all(&designs)?;
-        Ok(points.iter().map(|p| p.merit(PENALTY)).collect())
+        Ok(self.graded_at(x)?.merit(PENALTY))
     }
 }
 
-/// Searches the unit box; the same seed gives the same designs on any number of threads. Returns
-/// designs from which to search locally, the most promising first.
-pub(super) fn search(
-    evaluations: &Evaluations,
-    seed: u64,
-    starts: usize,
-) -> Result<Vec<Point>, Stop> {
-    let n = evaluations.problem.variables().len();
-    let covering: Vec<Vec<f64>> = (1..=COVERING_PER_VARIABLE * n)
-        .map(|i| halton(i, n))
-        .collect();
-    evaluations.all(&covering)?;
-    let solver = ParticleSwarm::new((vec![0.0; n], vec![1.0; n]), PARTICLES_PER_VARIABLE * n)
-        .with_rng_generator(ChaCha8Rng::seed_from_u64(seed));
-    let swarm = Executor::new(Merit(evaluations), solver)
-        .configure(|state| state.max_iters(SWEEPS as u64))
-        .run();
-    // The merit is finite everywhere and the bounds are the box: the swarm has no other way to
-    // fail, and what it found is among the evaluations.
-    if let Err(error) = swarm
-        && let Some(stop) = error.downcast_ref::<Stop>()
-    {
-        return Err(*stop);
+/// What the searches of a problem found.
+pub(super) struct Explored {
+    /// The local optima.
+    pub basins: Basins,
+    /// The best design that a search met on its way.
+    pub met: Option<Point>,
+    /// Why it ended early, if it did.
+    pub stop: Option<Stop>,
+}
+
+/// Searches the unit box; the same seed gives the same designs on any number of threads.
+pub(super) fn explore(problem: &dyn Problem, archive: &Archive, start: &Start) -> Explored {
+    let mut multistart = Multistart::new(archive, start, problem.variables().len());
+    let run = Executor::new(Evaluations::new(problem, archive), &mut multistart).run();
+    // Evaluations that fail have a merit all the same: only the archive ends a run.
+    let stop = run.err().and_then(|error| error.downcast_ref().copied());
+    Explored {
+        basins: multistart.basins,
+        met: multistart.met,
+        stop,
     }
-    Ok(evaluations.best_apart(START_PENALTY, APART, starts + n))
+}
+
+/// Evaluations that a search may take, for whoever waits.
+pub(super) fn forecast(n: usize, start: &Start) -> usize {
+    /// Local searches from uniform points where there are two optima.
+    const SEARCHES: usize = 12;
+    let local = 10 + 2 * n;
+    let searches = match start.everywhere {
+        Some(_) => SEARCHES + n,
+        None => 0,
+    };
+    (searches + start.designs.len()) * local
+}
+
+/// Local searches from designs given, uniform points, and far ends.
+struct Multistart<'a> {
+    archive: &'a Archive<'a>,
+    /// Trust radius of the searches.
+    radius: f64,
+    everywhere: Option<Everywhere>,
+    random: ChaCha8Rng,
+    /// Uniform points that can be evaluated, to search from.
+    sample: VecDeque<Point>,
+    /// Points drawn since the last that can be evaluated.
+    failed: usize,
+    /// Other designs to search from.
+    others: VecDeque<Vec<f64>>,
+    /// Optima from whose far ends was searched.
+    turned: Vec<Vec<f64>>,
+    again: usize,
+    basins: Basins,
+    met: Option<Point>,
+    is_done: bool,
+    n: usize,
+}
+
+/// Designs to search from.
+enum Round {
+    Uniform(Vec<Point>),
+    Others(Vec<Point>),
+}
+
+impl<'a> Multistart<'a> {
+    fn new(archive: &'a Archive<'a>, start: &Start, n: usize) -> Self {
+        Self {
+            archive,
+            radius: start.radius,
+            everywhere: start.everywhere,
+            random: ChaCha8Rng::seed_from_u64(start.everywhere.map_or(0, |e| e.seed)),
+            sample: VecDeque::new(),
+            failed: 0,
+            others: start.designs.iter().cloned().collect(),
+            turned: Vec::new(),
+            again: 0,
+            basins: Basins::default(),
+            met: None,
+            is_done: false,
+            n,
+        }
+    }
+
+    /// Keeps the best design met.
+    fn meet(&mut self, point: &Point) {
+        if self.met.as_ref().is_none_or(|best| point.better_than(best)) {
+            self.met = Some(point.clone());
+        }
+    }
+
+    /// The next designs to search from; none when the search is done.
+    fn round(&mut self, evaluations: &Evaluations) -> Result<Option<Round>, Stop> {
+        loop {
+            if !self.others.is_empty() {
+                let count = self.others.len().min(ROUND);
+                let designs: Vec<Vec<f64>> = self.others.drain(..count).collect();
+                let points = evaluations.graded(&designs)?;
+                points.iter().for_each(|point| self.meet(point));
+                let usable: Vec<Point> = points.into_iter().filter(|p| p.values.is_ok()).collect();
+                if usable.is_empty() {
+                    continue;
+                }
+                return Ok(Some(Round::Others(usable)));
+            }
+            if self.needs_sample() {
+                self.draw(evaluations)?;
+                let count = self.sample.len().min(ROUND).min(self.wanting());
+                if count > 0 {
+                    return Ok(Some(Round::Uniform(self.sample.drain(..count).collect())));
+                }
+            }
+            if !self.turn() && !self.go_on() {
+                return Ok(None);
+            }
+        }
+    }
+
+    /// Whether the stopping rule asks for more uniform points, and they can be had.
+    fn needs_sample(&self) -> bool {
+        self.everywhere.is_some_and(|everywhere| {
+            let most = MANY / everywhere.unseen.sqrt();
+            self.basins.unseen() > everywhere.unseen
+                && (self.basins.uniform() as f64) < most
+                && self.failed < DRAWS * self.n
+        })
+    }
+
+    /// Uniform points that the stopping rule asks for if no other optimum is found.
+    fn wanting(&self) -> usize {
+        let bound = self.everywhere.map_or(1.0, |everywhere| everywhere.unseen);
+        let optima = self.basins.optima().max(1);
+        (1..=ROUND)
+            .find(|more| unseen(optima, self.basins.uniform() + more) <= bound)
+            .unwrap_or(ROUND)
+    }
+
+    /// Draws uniform points until a round of them can be evaluated.
+    fn draw(&mut self, evaluations: &Evaluations) -> Result<(), Stop> {
+        while self.sample.len() < ROUND && self.failed < DRAWS * self.n {
+            let coordinate =
+                |random: &mut ChaCha8Rng| f64::from(random.next_u32()) / f64::from(u32::MAX);
+            let designs: Vec<Vec<f64>> = (0..BATCH)
+                .map(|_| (0..self.n).map(|_| coordinate(&mut self.random)).collect())
+                .collect();
+            for point in evaluations.graded(&designs)? {
+                self.meet(&point);
+                if point.values.is_ok() {
+                    self.failed = 0;
+                    self.sample.push_back(point);
+                } else {
+                    self.failed += 1;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts every variable of the best design to the ends of its range that are far away. Whether
+    /// there is any such design from which that was not done before.
+    fn turn(&mut self) -> bool {
+        let Some(best) = self.basins.best().filter(|_| self.everywhere.is_some()) else {
+            return false;
+        };
+        let x = best.point.x.clone();
+        if self.turned.contains(&x) {
+            return false;
+        }
+        for (i, at) in x.iter().enumerate() {
+            for end in [0.0, 1.0] {
+                if (at - end).abs() > FAR {
+                    let mut design = x.clone();
+                    design[i] = end;
+                    self.others.push_back(design);
+                }
+            }
+        }
+        self.turned.push(x);
+        true
+    }
+
+    /// Goes on from a design that is better than what the search that met it came to.
+    fn go_on(&mut self) -> bool {
+        let (Some(met), Some(known)) = (&self.met, self.basins.best()) else {
+            return false;
+        };
+        if self.again == AGAIN_FROM_BEST || !met.feasible() || !is_overtaken(known, met) {
+            return false;
+        }
+        self.again += 1;
+        self.others.push_back(met.x.clone());
+        true
+    }
+
+    /// Searches from all designs of a round. What they find does not depend on one another.
+    fn follow(&mut self, round: Round, evaluations: &Evaluations) -> Result<(), Stop> {
+        let (is_uniform, starts) = match round {
+            Round::Uniform(starts) => (true, starts),
+            Round::Others(starts) => (false, starts),
+        };
+        let known: Vec<Found> = self.basins.found().cloned().collect();
+        let radius = if is_uniform { local::WIDE } else { self.radius };
+        let search = |from: Point| {
+            let own = Evaluations::new(evaluations.problem, self.archive);
+            let found = local::search(&own, from, radius, &known);
+            (found, own.best())
+        };
+        let ends: Vec<(Found, Option<Point>)> = if self.archive.has_budget() {
+            // The order of evaluation decides which designs the budget still allows.
+            starts.into_iter().map(search).collect()
+        } else {
+            starts.into_par_iter().map(search).collect()
+        };
+        let mut stop = None;
+        for (found, met) in ends {
+            stop = stop.or(match found.status {
+                Status::BudgetSpent => Some(Stop::Budget),
+                Status::Interrupted => Some(Stop::Interrupted),
+                _ => None,
+            });
+            self.basins.add(found, is_uniform);
+            met.iter().for_each(|point| self.meet(point));
+        }
+        stop.map_or(Ok(()), Err)
+    }
+}
+
+type Progress = IterState<Vec<f64>, (), (), (), (), f64>;
+
+impl<'p> Solver<Evaluations<'p>, Progress> for &mut Multistart<'_> {
+    fn name(&self) -> &'static str {
+        "multistart"
+    }
+
+    fn next_iter(
+        &mut self,
+        counted: &mut Counted<Evaluations<'p>>,
+        state: Progress,
+    ) -> Result<(Progress, Option<KV>), Error> {
+        let evaluations = counted
+            .take_problem()
+            .ok_or_else(|| Error::msg("no problem"))?;
+        let outcome = match self.round(&evaluations) {
+            Ok(Some(round)) => self.follow(round, &evaluations),
+            Ok(None) => {
+                self.is_done = true;
+                Ok(())
+            }
+            Err(stop) => Err(stop),
+        };
+        counted.problem = Some(evaluations);
+        outcome?;
+        let Some(best) = self.basins.best() else {
+            return Ok((state, None));
+        };
+        let (x, merit) = (best.point.x.clone(), best.point.merit(PENALTY));
+        Ok((state.param(x).cost(merit), None))
+    }
+
+    fn terminate(&mut self, _: &Progress) -> TerminationStatus {
+        if self.is_done {
+            TerminationStatus::Terminated(TerminationReason::SolverConverged)
+        } else {
+            TerminationStatus::NotTerminated
+        }
+    }
 }
 
 /// Point `i` of Halton's low-discrepancy sequence in `n` dimensions (Halton 1960).

@@ -23,8 +23,11 @@ use super::{
 /// How a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
-    /// A point that satisfies the first-order conditions and every constraint.
+    /// A point that satisfies the first-order conditions and every constraint; where it was searched
+    /// everywhere, basins not yet seen are as unlikely as asked for.
     Optimal,
+    /// As [`Status::Optimal`], but basins not yet seen are not unlikely enough.
+    BestFound,
     /// The best point found is feasible, but the first-order conditions are not met to tolerance.
     Stalled,
     /// No feasible point was found; the point has the least violation found.
@@ -92,10 +95,11 @@ const HIGHEST_PENALTY: f64 = 1e6;
 /// A violation left by the subproblem below this share of the radius is rounding.
 const NEGLIGIBLE: f64 = 1e-3;
 /// A search this close to a known optimum, in every variable, has arrived at it; so has one that is
-/// in its neighbourhood and as good but for this.
+/// in its neighbourhood, behind it by no more than this, and no better.
 const ARRIVED: f64 = 5e-3;
 const NEIGHBOUR: f64 = 0.1;
-const LEVEL: f64 = 1e-3;
+const LEVEL: f64 = 3e-3;
+const NO_BETTER: f64 = 2e-5;
 /// Up to this many variables the first designs determine all curvatures.
 const FEW: usize = 3;
 
@@ -249,7 +253,8 @@ impl Region<'_> {
         let above = self.centre.merit(self.penalty) - known.point.merit(self.penalty);
         known.status == Status::Optimal
             && (near(&known.point.x, &self.centre.x, ARRIVED)
-                || near(&known.point.x, &self.centre.x, NEIGHBOUR) && above.abs() < LEVEL)
+                || near(&known.point.x, &self.centre.x, NEIGHBOUR)
+                    && (-NO_BETTER..LEVEL).contains(&above))
     }
 
     fn weights(&self) -> Weights {

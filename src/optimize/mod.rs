@@ -2,12 +2,13 @@
 //!
 //! A [`problem`] measures designs with the full models and judges what was measured. The
 //! [`archive`] keeps every measurement: it counts them against the budget, serves them again, and
-//! writes the [`journal`] from which a run can be resumed. [`solve`] searches globally (an even
-//! covering and argmin's particle swarm), then locally from the best designs met (a trust-region
-//! method whose subproblems are quadratic programs on fitted surrogates), and hands over the best
-//! design with its [`certificate`].
+//! writes the [`journal`] from which a run can be resumed. [`solve`] searches locally from
+//! many designs (argmin drives the multistart; a trust-region method, whose subproblems are
+//! quadratic programs on surrogates, follows each start) until basins not yet seen are unlikely,
+//! and hands over the best design with its [`certificate`].
 
 pub mod archive;
+mod basins;
 pub mod certificate;
 mod effort;
 mod evaluations;

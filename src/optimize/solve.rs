@@ -1,16 +1,22 @@
-//! Global search, then local searches from the best designs met.
+//! The search for the best design of a problem, and what is known of it.
 
-use std::{collections::VecDeque, time::Instant};
+use std::time::Instant;
 
-pub use super::{effort::Effort, global::halton, start::Start};
+pub use super::{
+    basins::Optimum,
+    effort::Effort,
+    global::halton,
+    start::{Everywhere, Start, UNSEEN, UNSEEN_THOROUGH},
+};
 
 use super::{
     archive::{Archive, Stop},
+    basins::{Basins, is_overtaken, same},
     certificate::Certificate,
-    evaluations::{Evaluations, near},
-    global,
+    evaluations::Evaluations,
+    global::{self, Explored},
     local::{self, Found, Status},
-    problem::{Failure, Point, Problem, Values},
+    problem::{Failure, Point, Problem},
     violation::least_violation,
 };
 
@@ -25,8 +31,28 @@ pub struct Solved {
     pub certificate: Option<Certificate>,
     /// What was spent.
     pub effort: Effort,
-    /// Designs to which the local searches came, in scaled coordinates.
-    pub ends: Vec<Vec<f64>>,
+    /// The local optima found, the best first.
+    pub optima: Vec<Optimum>,
+    /// How far the space was searched; `None` where the search stayed near designs given.
+    pub coverage: Option<Coverage>,
+}
+
+/// How far the space was searched for other optima.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coverage {
+    /// Local searches from uniform points.
+    pub uniform: usize,
+    /// Expected share of the space in basins not yet seen.
+    pub unseen: f64,
+    /// The bound asked for.
+    pub bound: f64,
+}
+
+impl Coverage {
+    /// Whether basins not yet seen are as unlikely as asked for.
+    pub fn is_enough(&self) -> bool {
+        self.unseen <= self.bound
+    }
 }
 
 /// Not one design could be evaluated.
@@ -40,16 +66,7 @@ pub enum NoDesign {
     Stopped(#[from] Stop),
 }
 
-/// What a local search may be hoped to gain per variable; a start further behind the best is left
-/// out.
-const PROMISE: f64 = 0.2;
-/// Objectives closer than this are the same: what the tolerance on first-order conditions leaves.
-const SAME: f64 = 2e-5;
-/// Starts agree within this in every variable, or in objective within [`SAME`].
-const AGREE: f64 = 1e-3;
-/// Local searches added from such designs.
-const AGAIN_FROM_BEST: usize = 3;
-/// Seed of a global phase that takes the place of a search nearby.
+/// Seed of a search everywhere that takes the place of one nearby.
 const AGAIN: u64 = 1;
 
 /// Solves a problem.
@@ -60,236 +77,124 @@ const AGAIN: u64 = 1;
 pub fn solve(problem: &dyn Problem, start: &Start, archive: &Archive) -> Result<Solved, NoDesign> {
     let clock = Instant::now();
     let (count, failures) = (archive.count(), archive.failures());
-    let announced = forecast(problem.variables().len(), start);
-    archive.announce(announced);
-    let evaluations = Evaluations::new(problem, archive);
-    let mut search = Search {
-        evaluations: &evaluations,
-        best: None,
-        ends: Vec::new(),
-        gives_up: start.gives_up,
-    };
-    let outcome = search.run(start);
-    archive.settle(announced, archive.count() - count);
-    let ends = std::mem::take(&mut search.ends);
-    let best = search.best.take();
-    let mut found = finish(&evaluations, best, outcome.err())?;
     let is_free = !problem.variables().is_empty();
+    let explored = if is_free {
+        let announced = global::forecast(problem.variables().len(), start);
+        archive.announce(announced);
+        let explored = explore(problem, start, archive);
+        archive.settle(announced, archive.count() - count);
+        explored
+    } else {
+        alone(problem, archive)?
+    };
+    let coverage = start.everywhere.map(|everywhere| Coverage {
+        uniform: explored.basins.uniform(),
+        unseen: if is_free {
+            explored.basins.unseen()
+        } else {
+            0.0
+        },
+        bound: everywhere.unseen,
+    });
+    let mut found = finish(&explored)?;
+    let optima = explored.basins.into_optima();
     if found.status == Status::Infeasible && is_free {
         found = least_violation(problem, archive, found);
     } else if found.status == Status::Optimal
-        && let Ok(curved) = local::with_curvature(&evaluations, found.clone())
+        && let Ok(curved) =
+            local::with_curvature(&Evaluations::new(problem, archive), found.clone())
     {
         found = curved;
     }
-    let agreed = ends
-        .iter()
-        .filter(|end| agrees(&end.point, &found.point))
-        .count();
+    if found.status == Status::Optimal && coverage.is_some_and(|coverage| !coverage.is_enough()) {
+        found.status = Status::BestFound;
+    }
+    let own = optima.iter().find(|optimum| same(&optimum.found, &found));
     Ok(Solved {
         effort: Effort {
             evaluations: archive.count() - count,
             failures: archive.failures_since(&failures),
-            starts: ends.len(),
-            agreed,
+            starts: optima.iter().map(|optimum| optimum.searches).sum(),
+            agreed: own.map_or(0, |optimum| optimum.searches),
             seconds: clock.elapsed().as_secs_f64(),
         },
         point: found.point,
         status: found.status,
         certificate: found.certificate,
-        ends: ends.into_iter().map(|end| end.point.x).collect(),
+        optima,
+        coverage,
     })
 }
 
-/// Evaluations that a search may take, for whoever waits.
-fn forecast(n: usize, start: &Start) -> usize {
-    let local = 10 + 12 * n;
-    match start.everywhere {
-        Some(_) => global::EVALUATIONS_PER_VARIABLE * n + (start.starts + n) * local,
-        None => start.designs.len() * local,
+/// Searches from where `start` says; where what changed since has left the designs of a search
+/// nearby without a performance, everywhere.
+fn explore(problem: &dyn Problem, start: &Start, archive: &Archive) -> Explored {
+    let explored = global::explore(problem, archive, start);
+    let is_empty = explored.basins.searches() == 0 && explored.stop.is_none();
+    if start.everywhere.is_none() && is_empty {
+        return global::explore(problem, archive, &Start::everywhere(AGAIN));
     }
+    explored
 }
 
-struct Search<'a> {
-    evaluations: &'a Evaluations<'a>,
-    best: Option<Found>,
-    ends: Vec<Found>,
-    gives_up: bool,
-}
-
-impl Search<'_> {
-    fn run(&mut self, start: &Start) -> Result<(), Stop> {
-        let evaluations = self.evaluations;
-        if evaluations.problem.variables().is_empty() {
-            let point = evaluations.at(&[])?;
-            let certificate = point.values.as_ref().ok().map(Certificate::alone);
-            let status = if point.feasible() {
-                Status::Optimal
-            } else {
-                Status::Infeasible
-            };
-            if point.values.is_ok() {
-                self.best = Some(Found {
-                    point,
-                    status,
-                    certificate,
-                });
-            }
-            return Ok(());
-        }
-        let given = evaluations.all(&start.designs)?;
-        let usable: Vec<Point> = given.into_iter().filter(|p| p.values.is_ok()).collect();
-        let (mut starts, radius) = match start.everywhere {
-            Some(seed) => (
-                global::search(evaluations, seed, start.starts)?,
-                local::WIDE,
-            ),
-            // What changed since has left these designs without a performance.
-            None if usable.is_empty() => (
-                global::search(evaluations, AGAIN, start.starts)?,
-                local::WIDE,
-            ),
-            None => (usable, start.radius),
+/// The only design of a problem without variables.
+fn alone(problem: &dyn Problem, archive: &Archive) -> Result<Explored, NoDesign> {
+    let point = Evaluations::new(problem, archive).at(&[])?;
+    let mut basins = Basins::default();
+    if let Ok(values) = &point.values {
+        let status = if point.feasible() {
+            Status::Optimal
+        } else {
+            Status::Infeasible
         };
-        // The best that holds all constraints is a start too, whatever its merit.
-        if start.everywhere.is_some()
-            && let Some(best) = evaluations.best().filter(Point::feasible)
-            && !starts.iter().any(|p| near(&p.x, &best.x, global::APART))
-        {
-            starts.push(best);
-        }
-        let mut starts: VecDeque<Point> = starts.into();
-        let mut again = 0;
-        while let Some(from) = starts.pop_front() {
-            if self.hopeless(&from, start.beat) {
-                continue;
-            }
-            let found = local::search(evaluations, from, radius, &self.ends);
-            let stopped = match found.status {
-                Status::BudgetSpent => Some(Stop::Budget),
-                Status::Interrupted => Some(Stop::Interrupted),
-                _ => None,
-            };
-            self.ends.push(found.clone());
-            if self
-                .best
-                .as_ref()
-                .is_none_or(|b| found.point.better_than(&b.point))
-            {
-                self.best = Some(found);
-            }
-            if let Some(stop) = stopped {
-                return Err(stop);
-            }
-            // A local search that met something better on its way than what it came to.
-            if starts.is_empty()
-                && again < AGAIN_FROM_BEST
-                && let Some(best) = self.overtaken()
-            {
-                again += 1;
-                starts.push_back(best);
-            }
-        }
-        Ok(())
+        let certificate = Some(Certificate::alone(values));
+        basins.add(
+            Found {
+                point: point.clone(),
+                status,
+                certificate,
+            },
+            false,
+        );
     }
-
-    /// The best evaluated design, if it is truly better than what the local searches came to.
-    fn overtaken(&self) -> Option<Point> {
-        let best = self.evaluations.best()?;
-        let known = self.best.as_ref()?;
-        let better = best.better_than(&known.point) && best.feasible() && !stands(known, &best);
-        (better && (!known.point.feasible() || improvement(&known.point, &best) > SAME))
-            .then_some(best)
-    }
-
-    fn hopeless(&self, from: &Point, beat: f64) -> bool {
-        let Ok(values) = &from.values else {
-            return false;
-        };
-        let promise = PROMISE * from.x.len() as f64;
-        let reach = values.objective() + global::START_PENALTY * values.violation() - promise;
-        let reached = match &self.best {
-            Some(best) if best.status != Status::Infeasible => best
-                .point
-                .values
-                .as_ref()
-                .map_or(f64::INFINITY, Values::objective),
-            _ => f64::INFINITY,
-        };
-        let one_will_do = self.best.is_some() || self.gives_up;
-        one_will_do && beat < reach || reached < reach
-    }
+    Ok(Explored {
+        basins,
+        met: Some(point),
+        stop: None,
+    })
 }
 
 /// The best local result, unless some other evaluation was better: never merely the last.
-fn finish(
-    evaluations: &Evaluations,
-    best: Option<Found>,
-    stop: Option<Stop>,
-) -> Result<Found, NoDesign> {
-    let any = evaluations.best().filter(|p| p.values.is_ok());
-    let Some(any) = any else {
-        return Err(match stop {
-            Some(stop) => stop.into(),
-            None => NoDesign::Failed(evaluations.last_failure().unwrap_or(Failure::NotFinite)),
+fn finish(explored: &Explored) -> Result<Found, NoDesign> {
+    let Some(met) = explored.met.as_ref().filter(|p| p.values.is_ok()) else {
+        return Err(match (explored.stop, &explored.met) {
+            (Some(stop), _) => stop.into(),
+            (
+                None,
+                Some(Point {
+                    values: Err(failure),
+                    ..
+                }),
+            ) => NoDesign::Failed(*failure),
+            (None, _) => NoDesign::Failed(Failure::NotFinite),
         });
     };
-    let mut found = match best {
-        Some(found) if !any.better_than(&found.point) || stands(&found, &any) => found,
-        Some(found) => {
-            let feasible = any.feasible();
-            let better = improvement(&found.point, &any) > SAME;
-            let keeps = !better && found.point.feasible() == feasible;
-            Found {
-                status: if feasible && !keeps {
-                    Status::Stalled
-                } else {
-                    found.status
-                },
-                certificate: found.certificate.filter(|c| keeps && c.is_of(&any)),
-                point: any,
-            }
-        }
-        None => Found {
-            status: if any.feasible() {
+    let mut found = match explored.basins.best() {
+        Some(best) if !is_overtaken(best, met) => best.clone(),
+        best => Found {
+            status: if met.feasible() {
                 Status::Stalled
             } else {
                 Status::Infeasible
             },
-            point: any,
-            certificate: None,
+            certificate: best
+                .and_then(|best| best.certificate.clone())
+                .filter(|c| !met.feasible() && c.is_of(met)),
+            point: met.clone(),
         },
     };
-    if let Some(stop) = stop {
+    if let Some(stop) = explored.stop {
         found.status = stop.into();
     }
     Ok(found)
-}
-
-/// Whether an optimum is as good as another design, but for what that one owes to the tolerance on
-/// the constraints: where these are nearly flat they are dear.
-fn stands(optimum: &Found, other: &Point) -> bool {
-    let (Some(certificate), Ok(own), Ok(others)) =
-        (&optimum.certificate, &optimum.point.values, &other.values)
-    else {
-        return false;
-    };
-    let price: f64 = certificate.constraint_multipliers.iter().sum();
-    let owed = price * (others.violation() - own.violation()).max(0.0);
-    optimum.status == Status::Optimal && own.objective() - others.objective() <= SAME + owed
-}
-
-fn agrees(a: &Point, b: &Point) -> bool {
-    let objective = |p: &Point| p.values.as_ref().map_or(f64::INFINITY, Values::objective);
-    a.feasible() == b.feasible()
-        && (near(&a.x, &b.x, AGREE) || (objective(a) - objective(b)).abs() < SAME)
-}
-
-fn improvement(from: &Point, to: &Point) -> f64 {
-    match (&from.values, &to.values) {
-        (Ok(a), Ok(b)) => {
-            (a.objective() - b.objective()).abs() + (a.violation() - b.violation()).abs()
-        }
-        _ => f64::INFINITY,
-    }
 }

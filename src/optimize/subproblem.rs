@@ -26,7 +26,7 @@ const PROGRAMS: usize = 12;
 /// Smallest curvature of H, per radius.
 const CURVATURE: f64 = 1e-6;
 /// Settling of the step, in radii: the surrogate is not as good as that.
-const SETTLED: f64 = 1e-4;
+const SETTLED: f64 = 1e-3;
 
 /// Solution of a subproblem.
 #[derive(Debug, Clone)]

@@ -6,7 +6,9 @@ use super::diagnostic::{Collect, Diagnostic, word};
 use super::document::{Document, Value};
 use super::keys::{self, Range};
 use super::value::{choice, interval, list, number, whole};
+use crate::optimize::solve::UNSEEN;
 use crate::parameter::Parameter;
+use crate::units::Quantity;
 
 /// Closed interval, lower < upper.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,6 +68,8 @@ pub struct DesignSpace {
     pub order: Order,
     /// Seed of the search: the same seed gives the same design.
     pub seed: u64,
+    /// Expected share of the space in basins not yet seen down to which a search goes on.
+    pub unseen: f64,
 }
 
 impl Default for DesignSpace {
@@ -74,6 +78,7 @@ impl Default for DesignSpace {
             parameters: Vec::new(),
             order: Order::default(),
             seed: 1,
+            unseen: UNSEEN,
         }
     }
 }
@@ -87,6 +92,9 @@ impl DesignSpace {
             .map(|(_, freedom)| freedom)
     }
 }
+
+/// Bounds on `unseen`: from thousands of local searches to a handful.
+const UNSEEN_RANGE: [f64; 2] = [1e-4, 0.5];
 
 /// Names of [`Order`].
 pub(super) const ORDERS: [&str; 2] = ["sequential", "joint"];
@@ -126,7 +134,24 @@ pub(super) fn read(document: &Document, mistakes: &mut Vec<Diagnostic>) -> Desig
     if let Some(value) = document.get(keys::SEED) {
         design.seed = mistakes.collect(whole(value, "seed")).unwrap_or(1);
     }
+    if let Some(value) = document.get(keys::UNSEEN)
+        && let Some(share) = mistakes.collect(unseen(value))
+    {
+        design.unseen = share;
+    }
     design
+}
+
+/// A share of the space, of which a search can tell.
+fn unseen(value: &Value) -> Result<f64, Diagnostic> {
+    let share = number(value, "unseen", Quantity::Dimensionless, Range::Positive)?;
+    let [low, high] = UNSEEN_RANGE;
+    if (low..=high).contains(&share) {
+        return Ok(share);
+    }
+    let message = format!("`unseen` is {share}");
+    let expected = format!("expected a share from {low} to {high}");
+    Err(Diagnostic::at(value.span(), message, expected))
 }
 
 /// `["1 MN/m", "9 MN/m"]`, `{ choices = [0.05, 0.10] }`, `{ tied_to = "…", ratio = 0.5 }` or a
@@ -171,7 +196,7 @@ fn freedom(parameter: Parameter, value: &Value) -> Result<Freedom, Diagnostic> {
                         ));
                     }
                     let ratio = ratio.map_or(Ok(1.0), |(_, ratio)| {
-                        let dimensionless = crate::units::Quantity::Dimensionless;
+                        let dimensionless = Quantity::Dimensionless;
                         number(ratio, "ratio", dimensionless, Range::Positive)
                     })?;
                     Ok(Freedom::Tied { to, ratio })

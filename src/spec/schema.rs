@@ -14,6 +14,7 @@ use super::{
     tracks,
 };
 use crate::index::{Index, Sense};
+use crate::optimize::solve::UNSEEN;
 use crate::parameter::Parameter;
 use crate::track::Track;
 use crate::units::Range;
@@ -217,6 +218,9 @@ fn own_form(path: &str) -> Value {
             { "type": "string", "maxLength": NAME },
         ] }),
         keys::ORDER => json!({ "enum": ORDERS, "default": ORDERS[0] }),
+        keys::UNSEEN => json!({
+            "type": "number", "minimum": 1e-4, "maximum": 0.5, "default": UNSEEN
+        }),
         keys::SEED => json!({ "type": "integer", "minimum": 0, "default": 1 }),
         keys::MAXIMIZE => goals(Sense::AtLeast),
         keys::MINIMIZE => goals(Sense::AtMost),

@@ -19,6 +19,7 @@ pub(in crate::spec) const TRACKS: &str = "tracks";
 pub(in crate::spec) const CONDITIONS: &str = "conditions";
 pub(in crate::spec) const ORDER: &str = "design.order";
 pub(in crate::spec) const SEED: &str = "design.seed";
+pub(in crate::spec) const UNSEEN: &str = "design.unseen";
 pub(in crate::spec) const MAXIMIZE: &str = "objective.maximize";
 pub(in crate::spec) const MINIMIZE: &str = "objective.minimize";
 pub(in crate::spec) const FRONT_INDICES: &str = "pareto.indices";
@@ -55,6 +56,13 @@ pub static ENTRIES: &[Entry] = &[
         meaning: "seed of the search: the same seed gives the same design",
         form: "a whole number from 0 up",
         default: "1",
+    },
+    Entry {
+        path: UNSEEN,
+        meaning: "share of the space that may lie in basins of optima not yet seen, by the estimate \
+                  of Boender and Rinnooy Kan: the search goes on until it is smaller",
+        form: "a number from 0.0001 to 0.5",
+        default: "0.05",
     },
     Entry {
         path: MAXIMIZE,

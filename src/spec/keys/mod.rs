@@ -20,7 +20,7 @@ use crate::parameter::Parameter;
 
 pub(super) use entries::{
     BASE, CONDITIONS, FRONT_BOUNDS, FRONT_INDICES, FRONT_POINTS, MAXIMIZE, MINIMIZE, ORDER, SEED,
-    TRACK, TRACKS,
+    TRACK, TRACKS, UNSEEN,
 };
 
 /// The numeric keys of a case.
