@@ -83,6 +83,9 @@ pub fn json(name: &str, front: &Front, spec: &Spec, digest: &str) -> Value {
         "evaluations": front.evaluations,
         "failures": failures_of(&front.failures),
         "dominated": front.dominated,
+        "points_asked": front.asked,
+        "wide_gaps": front.sparse.map_or(0, |sparse| sparse.gaps),
+        "why_sparse": sparse(front),
         "points": table(name, front, digest).json(),
     })
 }
@@ -139,7 +142,33 @@ pub fn text(name: &str, front: &Front) -> String {
         front.dominated,
         front.evaluations
     ));
+    if let Some(why) = sparse(front) {
+        sheet.line(&why);
+    }
     sheet.finish()
+}
+
+/// Why a front has fewer points than asked for, or wide gaps.
+pub(crate) fn sparse(front: &Front) -> Option<String> {
+    let sparse = front.sparse.filter(|_| front.stopped.is_none())?;
+    let mut parts = Vec::new();
+    if front.points.len() < front.asked {
+        parts.push(format!("{} points were asked for", front.asked));
+    }
+    if sparse.gaps > 0 {
+        parts.push(format!(
+            "{} gaps are wider than three times the mean",
+            sparse.gaps
+        ));
+    }
+    parts.push(match sparse.jumps {
+        0 => "the searches allowed for were not enough".into(),
+        n => format!(
+            "at {n} places between neighbouring points a search came to no other point: the front jumps \
+             there"
+        ),
+    });
+    Some(parts.join("; "))
 }
 
 fn heading(name: &str, unit: DisplayUnit) -> String {

@@ -17,6 +17,7 @@ use crate::{
     export::{
         certificate::certificate,
         number::{both, significant, value},
+        pareto::sparse,
         sheet::Sheet,
         status,
     },
@@ -43,6 +44,7 @@ pub fn front(report: &Report) -> Markup {
                     "Each point is a converged optimum: the best in one index that the others allow. "
                     (front.points.len()) " points, " (front.dominated) " found and dominated; "
                     (front.evaluations) " evaluations of the full models."
+                    @if let Some(why) = sparse(front) { " " (why) "." }
                 }
                 p.note.screen {
                     "Pick a point on the chart, or with its button in the table, to see the design "

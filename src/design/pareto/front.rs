@@ -1,5 +1,6 @@
 //! Points of a front: which of them count, and how they spread.
 
+use super::tracer::Aim;
 use crate::{
     case::Case,
     design::explain::Explained,
@@ -20,10 +21,12 @@ pub struct FrontPoint {
     pub(super) profile: usize,
     /// The design in scaled coordinates.
     pub(super) x: Vec<f64>,
-    /// What was asked of the other indices.
-    pub(super) bounds: Vec<(Index, f64)>,
-    /// What was made as good as can be.
-    pub(super) objective: Index,
+    /// The search that led to it.
+    pub(super) aim: Aim,
+    /// Whether it was searched for everywhere.
+    pub(super) is_verified: bool,
+    /// Whether its other indices are as good as they can be for next to nothing.
+    pub(super) is_spared: bool,
 }
 
 /// How bad a value is: logarithmic for indices compared by ratios, smaller is better.
@@ -119,7 +122,9 @@ pub(super) fn bargains(points: &mut Vec<FrontPoint>, indices: &[Index]) -> usize
 pub(super) fn converged(points: &mut Vec<FrontPoint>, indices: &[Index]) {
     let badness: Vec<Vec<f64>> = points.iter().map(|p| p.badness(indices)).collect();
     let mut ends = (0..points.len()).map(|i| is_end(&badness, i));
-    points.retain(|p| ends.next().unwrap_or(false) || p.explained.status == Status::Optimal);
+    let is_optimum =
+        |p: &FrontPoint| matches!(p.explained.status, Status::Optimal | Status::BestFound);
+    points.retain(|p| ends.next().unwrap_or(false) || is_optimum(p));
 }
 
 /// Whether no point is better in some index.

@@ -1,0 +1,197 @@
+//! Designs of a front's points for one wheel profile.
+
+use std::sync::{Mutex, PoisonError};
+
+use super::front::{FrontPoint, badness, of_badness};
+use crate::{
+    design::{
+        explain::Explained,
+        margin::worst_value,
+        search::{Searched, search_feasible},
+        study::Study,
+    },
+    index::Index,
+    optimize::{
+        archive::Archive,
+        local::{Status, WIDE},
+        problem::Failure,
+        solve::{NoDesign, Start},
+    },
+    spec::Condition,
+};
+
+/// By how much a bound that is an end of the front is loosened to choose among the designs that
+/// reach it, in badness.
+pub(super) const END: f64 = 1e-3;
+
+/// Bounds on indices, SI.
+pub(super) type Bounds = Vec<(Index, f64)>;
+
+/// A search for the best of one index within bounds on others.
+#[derive(Debug, Clone)]
+pub(super) struct Aim {
+    /// What is made as good as can be.
+    pub objective: Index,
+    /// What is asked of the others.
+    pub bounds: Bounds,
+}
+
+/// The search for points of one profile.
+pub(super) struct Tracer<'a> {
+    /// Which of the wheel profiles.
+    pub profile: usize,
+    /// Parameters and demands, without those on the indices traded off.
+    pub study: Study,
+    pub conditions: &'a [Condition],
+    pub indices: &'a [Index],
+    /// Start of a search everywhere.
+    pub everywhere: Start,
+    pub archive: &'a Archive<'a>,
+    pub name: String,
+    /// Designs of the basins seen so far.
+    pub pool: Pool,
+}
+
+/// Designs in different basins, scaled.
+pub(super) struct Pool(Mutex<Vec<Vec<f64>>>);
+
+impl Pool {
+    /// Designs kept at most; the latest are.
+    const KEPT: usize = 8;
+    /// Designs of different basins differ by this in some variable.
+    const APART: f64 = 0.15;
+
+    pub fn new(given: Vec<f64>) -> Self {
+        Self(Mutex::new(vec![given]))
+    }
+
+    fn add(&self, x: &[f64]) {
+        let mut designs = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        designs.retain(|known| !is_near(known, x));
+        designs.push(x.to_vec());
+        if designs.len() > Self::KEPT {
+            designs.remove(0);
+        }
+    }
+
+    /// Designs that are not near those `known`.
+    fn others(&self, known: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let designs = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_other = |x: &&Vec<f64>| !known.iter().any(|known| is_near(known, x));
+        designs.iter().filter(is_other).cloned().collect()
+    }
+}
+
+fn is_near(a: &[f64], b: &[f64]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < Pool::APART)
+}
+
+impl Tracer<'_> {
+    /// The best point of an aim, from designs `near` it and from those of all basins seen. `None` if no
+    /// design found keeps the bounds, or the run ended before.
+    pub fn follow(&self, aim: &Aim, near: Vec<Vec<f64>>) -> Option<FrontPoint> {
+        let others = self.pool.others(&near);
+        let start = Start {
+            radius: WIDE / 2.0,
+            ..Start::near(near).with(others)
+        };
+        self.solve(aim, &start).ok().flatten()
+    }
+
+    /// As [`Tracer::follow`], searched everywhere too.
+    ///
+    /// # Errors
+    ///
+    /// [`NoDesign`] if not one design could be evaluated.
+    pub fn everywhere(
+        &self,
+        aim: &Aim,
+        near: Vec<Vec<f64>>,
+    ) -> Result<Option<FrontPoint>, NoDesign> {
+        let others = self.pool.others(&near);
+        self.solve(aim, &self.everywhere.clone().with(near).with(others))
+    }
+
+    /// One point; `None` if no design found keeps the bounds, or the run ended before it converged.
+    pub fn solve(&self, aim: &Aim, start: &Start) -> Result<Option<FrontPoint>, NoDesign> {
+        let mut study = self.study.clone();
+        for condition in 0..study.conditions() {
+            study = study.optimise(condition, aim.objective, 0, 1.0);
+            for (index, bound) in &aim.bounds {
+                study = study.demand(condition, *index, *bound);
+            }
+        }
+        let Some(searched) = search_feasible(&study, start, self.archive)? else {
+            return Ok(None);
+        };
+        let Searched { study, solved, .. } = &searched;
+        if matches!(solved.status, Status::BudgetSpent | Status::Interrupted) {
+            return Ok(None);
+        }
+        let n = study.parameters().len();
+        for optimum in solved.optima.iter().rev() {
+            let point = &optimum.found.point;
+            if point.feasible() {
+                self.pool.add(&point.x[..n]);
+            }
+        }
+        let x = solved.point.x[..n].to_vec();
+        let case = study.design(&x);
+        let values = self
+            .indices
+            .iter()
+            .map(|i| worst_value(&case, self.conditions, *i));
+        // A design without one of the indices is no point.
+        let Ok(values) = values.collect::<Result<Vec<f64>, Failure>>() else {
+            return Ok(None);
+        };
+        Ok(Some(FrontPoint {
+            profile: self.profile,
+            values,
+            is_verified: solved.coverage.is_some(),
+            is_spared: false,
+            explained: Explained::new(&searched, format!("best {}", aim.objective.words())),
+            case,
+            x,
+            aim: aim.clone(),
+        }))
+    }
+
+    /// Makes the other indices of a point as good as they can be for next to nothing: where the bound
+    /// on one of three is not active, the search for the best of another leaves it anywhere.
+    pub fn spare(&self, point: &mut FrontPoint) {
+        let objective = point.aim.objective;
+        for other in self.indices.iter().filter(|i| **i != objective) {
+            if self.archive.stopped().is_some() {
+                return;
+            }
+            self.announce(&format!("what {} can be for nothing", other.words()));
+            let kept = self.indices.iter().filter(|i| *i != other);
+            let aim = Aim {
+                objective: *other,
+                bounds: kept
+                    .map(|i| (*i, of_badness(*i, self.badness_of(point, *i) + END)))
+                    .collect(),
+            };
+            let near = Start {
+                radius: WIDE,
+                ..Start::near(vec![point.x.clone()])
+            };
+            if let Ok(Some(better)) = self.solve(&aim, &near)
+                && better.explained.status == Status::Optimal
+                && self.badness_of(&better, *other) < self.badness_of(point, *other) - END
+            {
+                *point = better;
+            }
+        }
+    }
+
+    pub fn badness_of(&self, point: &FrontPoint, index: Index) -> f64 {
+        let at = self.indices.iter().position(|i| *i == index).unwrap_or(0);
+        badness(index, point.values[at])
+    }
+
+    pub fn announce(&self, what: &str) {
+        self.archive.stage(&format!("{}, {what}", self.name));
+    }
+}
