@@ -21,5 +21,6 @@ mod start;
 mod subproblem;
 mod surrogate;
 mod violation;
+pub mod within;
 
 pub(crate) use surrogate::follow;
