@@ -7,6 +7,7 @@ use super::document::{Document, Value};
 use super::keys::{self, Range};
 use super::value::{choice, interval, list, number, whole};
 use crate::parameter::Parameter;
+use crate::units::Quantity;
 
 /// Closed interval, lower < upper.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,6 +58,18 @@ pub enum Order {
     Joint,
 }
 
+/// Which design is delivered within a small loss of the optimum.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Prefer {
+    /// The one nearest to the design as given.
+    #[default]
+    AsGiven,
+    /// The one with the softest springs.
+    Softest,
+    /// The optimum itself.
+    Optimum,
+}
+
 /// What the design may vary. Parameters that are not listed keep the value of the case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DesignSpace {
@@ -66,6 +79,12 @@ pub struct DesignSpace {
     pub order: Order,
     /// Seed of the search: the same seed gives the same design.
     pub seed: u64,
+    /// Loss of each objective within which the ranges of the variables are given, relative.
+    pub free_within: f64,
+    /// Loss of each objective within which the design is delivered, relative.
+    pub deliver_within: f64,
+    /// Which design is delivered within that loss.
+    pub prefer: Prefer,
 }
 
 impl Default for DesignSpace {
@@ -74,6 +93,9 @@ impl Default for DesignSpace {
             parameters: Vec::new(),
             order: Order::default(),
             seed: 1,
+            free_within: 0.01,
+            deliver_within: 0.001,
+            prefer: Prefer::default(),
         }
     }
 }
@@ -90,6 +112,10 @@ impl DesignSpace {
 
 /// Names of [`Order`].
 pub(super) const ORDERS: [&str; 2] = ["sequential", "joint"];
+/// Names of [`Prefer`].
+pub(super) const PREFERENCES: [&str; 3] = ["as-given", "softest", "optimum"];
+/// Losses that may be allowed.
+pub(super) const LOSSES: Range = Range::PositiveUpTo(0.5);
 
 /// Reads `[design]`.
 pub(super) fn read(document: &Document, mistakes: &mut Vec<Diagnostic>) -> DesignSpace {
@@ -126,7 +152,41 @@ pub(super) fn read(document: &Document, mistakes: &mut Vec<Diagnostic>) -> Desig
     if let Some(value) = document.get(keys::SEED) {
         design.seed = mistakes.collect(whole(value, "seed")).unwrap_or(1);
     }
+    loss(
+        document,
+        keys::FREE_WITHIN,
+        &mut design.free_within,
+        mistakes,
+    );
+    loss(
+        document,
+        keys::DELIVER_WITHIN,
+        &mut design.deliver_within,
+        mistakes,
+    );
+    if let Some(value) = document.get(keys::PREFER)
+        && let Some(i) = mistakes.collect(choice(value, "prefer", &PREFERENCES))
+    {
+        design.prefer = [Prefer::AsGiven, Prefer::Softest, Prefer::Optimum][i];
+    }
     design
+}
+
+impl Prefer {
+    /// Name in specs and files.
+    pub fn name(self) -> &'static str {
+        PREFERENCES[self as usize]
+    }
+}
+
+/// Reads a relative loss.
+fn loss(document: &Document, path: &str, loss: &mut f64, mistakes: &mut Vec<Diagnostic>) {
+    let name = path.rsplit_once('.').map_or(path, |(_, name)| name);
+    if let Some(value) = document.get(path)
+        && let Some(share) = mistakes.collect(number(value, name, Quantity::Dimensionless, LOSSES))
+    {
+        *loss = share;
+    }
 }
 
 /// `["1 MN/m", "9 MN/m"]`, `{ choices = [0.05, 0.10] }`, `{ tied_to = "…", ratio = 0.5 }` or a
@@ -171,8 +231,7 @@ fn freedom(parameter: Parameter, value: &Value) -> Result<Freedom, Diagnostic> {
                         ));
                     }
                     let ratio = ratio.map_or(Ok(1.0), |(_, ratio)| {
-                        let dimensionless = crate::units::Quantity::Dimensionless;
-                        number(ratio, "ratio", dimensionless, Range::Positive)
+                        number(ratio, "ratio", Quantity::Dimensionless, Range::Positive)
                     })?;
                     Ok(Freedom::Tied { to, ratio })
                 }

@@ -9,14 +9,14 @@ use serde_json::{Map, Value, json};
 
 use super::keys::{self, ENTRIES, Need, TABLES};
 use super::{
-    FRONT_POINTS,
-    design::{ORDERS, may_be_tied},
+    DesignSpace, FRONT_POINTS,
+    design::{LOSSES, ORDERS, PREFERENCES, may_be_tied},
     tracks,
 };
 use crate::index::{Index, Sense};
 use crate::parameter::Parameter;
 use crate::track::Track;
-use crate::units::Range;
+use crate::units::{Quantity, Range};
 use values::{definitions, described, described_key, interval, number};
 
 /// The schema.
@@ -218,6 +218,9 @@ fn own_form(path: &str) -> Value {
         ] }),
         keys::ORDER => json!({ "enum": ORDERS, "default": ORDERS[0] }),
         keys::SEED => json!({ "type": "integer", "minimum": 0, "default": 1 }),
+        keys::PREFER => json!({ "enum": PREFERENCES, "default": PREFERENCES[0] }),
+        keys::DELIVER_WITHIN => loss(DesignSpace::default().deliver_within),
+        keys::FREE_WITHIN => loss(DesignSpace::default().free_within),
         keys::MAXIMIZE => goals(Sense::AtLeast),
         keys::MINIMIZE => goals(Sense::AtMost),
         keys::FRONT_INDICES => json!({
@@ -247,6 +250,13 @@ fn own_form(path: &str) -> Value {
         _ => json!({}),
     };
     described(form, &text)
+}
+
+/// A relative loss.
+fn loss(default: f64) -> Value {
+    let mut schema = number(Quantity::Dimensionless, LOSSES);
+    schema["default"] = json!(default);
+    schema
 }
 
 /// Longest name of a track or condition.

@@ -19,6 +19,9 @@ pub(in crate::spec) const TRACKS: &str = "tracks";
 pub(in crate::spec) const CONDITIONS: &str = "conditions";
 pub(in crate::spec) const ORDER: &str = "design.order";
 pub(in crate::spec) const SEED: &str = "design.seed";
+pub(in crate::spec) const PREFER: &str = "design.prefer";
+pub(in crate::spec) const DELIVER_WITHIN: &str = "design.deliver_within";
+pub(in crate::spec) const FREE_WITHIN: &str = "design.free_within";
 pub(in crate::spec) const MAXIMIZE: &str = "objective.maximize";
 pub(in crate::spec) const MINIMIZE: &str = "objective.minimize";
 pub(in crate::spec) const FRONT_INDICES: &str = "pareto.indices";
@@ -55,6 +58,26 @@ pub static ENTRIES: &[Entry] = &[
         meaning: "seed of the search: the same seed gives the same design",
         form: "a whole number from 0 up",
         default: "1",
+    },
+    Entry {
+        path: PREFER,
+        meaning: "which design is delivered within `deliver_within` of the optimum: the one nearest \
+                  to the design as given, the one with the softest springs, or the optimum itself",
+        form: "\"as-given\", \"softest\" or \"optimum\"",
+        default: "\"as-given\"",
+    },
+    Entry {
+        path: DELIVER_WITHIN,
+        meaning: "what the design delivered may lose of each objective against the optimum, as a share",
+        form: "a number above 0, 0.5 at the most",
+        default: "0.001",
+    },
+    Entry {
+        path: FREE_WITHIN,
+        meaning: "what each objective may lose, as a share, over the ranges that `bogie optimize` gives \
+                  for the variables",
+        form: "a number above 0, 0.5 at the most",
+        default: "0.01",
     },
     Entry {
         path: MAXIMIZE,
