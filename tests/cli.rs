@@ -156,6 +156,24 @@ fn optimize_meets_the_requirements_of_the_example() {
     {
         assert!(3.0 * stroke.as_f64().unwrap() <= 1.5 * 0.0254 * (1.0 + 1e-5));
     }
+    // Each variable of the trade-offs is free over a range that holds the optimum and the design delivered.
+    assert_eq!(value["prefer"], "as-given");
+    assert!(value["loss"].as_f64().unwrap() <= 1e-3 * (1.0 + 1e-6));
+    let stages = value["trade_offs"].as_array().unwrap().iter();
+    let variables: Vec<&Value> = stages
+        .flat_map(|stage| stage["variables"].as_array().unwrap())
+        .collect();
+    assert_eq!(variables.len(), 6);
+    for variable in variables {
+        let number = |key: &str| variable[key].as_f64().unwrap();
+        let range = number("free_from_si")..=number("free_to_si");
+        for key in ["value_si", "delivered_si"] {
+            // Rounding of a coordinate on the way to a value and back.
+            let near = |factor: f64| range.contains(&(factor * number(key)));
+            assert!(near(1.0 - 1e-9) || near(1.0 + 1e-9), "{variable}");
+        }
+        assert!((number("free_within") - 0.01).abs() < 1e-15);
+    }
     // Only the result and its journal are left in the folder: nothing half-written.
     let mut left: Vec<_> = fs::read_dir(folder.path())
         .unwrap()

@@ -111,7 +111,7 @@ fn each_says_what_is_the_matter() {
         let spec = format!("[vehicle]\nbase = \"prototype\"\n{tables}{DESIGN}");
         let mut said = String::new();
         for (args, code) in [
-            (&["optimize", "-", "--budget", "60"][..], optimize),
+            (&["optimize", "-", "--budget", "70"][..], optimize),
             (&["pareto", "-", "--budget", "60", "--points", "2"], pareto),
             (
                 &["pareto", "-", "--budget", "60", "--format", "csv"],

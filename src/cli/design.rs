@@ -64,7 +64,7 @@ pub fn optimize(call: &Optimize) -> Result<Done, Failure> {
     deliver(
         &call.run,
         "optimize",
-        || design_text::design(name, &result, &spec.demands, Some(&matters), &warnings),
+        || design_text::design(name, &result, spec, Some(&matters), &warnings),
         || {
             let all = together(doubts, &warnings);
             design_json::design(name, &result, spec, digest, Some(&matters), &all)

@@ -11,7 +11,7 @@ use crate::{
     optimize::{
         certificate::Curvature,
         local::Status,
-        problem::{Detail, Problem, Values, Variable, largest},
+        problem::{Detail, Piece, Problem, Values, Variable, largest},
         solve::{Coverage, Effort, Optimum},
     },
     parameter::Parameter,
@@ -249,6 +249,11 @@ fn single_objective(study: &Study, values: &Values) -> Option<Objective> {
     let [pieces] = &values.objectives[..] else {
         return None;
     };
+    objective_of(study, pieces)
+}
+
+/// The index behind the pieces of one objective, if all are of one.
+pub(super) fn objective_of(study: &Study, pieces: &[Piece]) -> Option<Objective> {
     let worst = pieces.iter().max_by(|a, b| a.value.total_cmp(&b.value))?;
     let term = &study.terms()[study.term_of(worst.index)];
     let same = pieces

@@ -2,14 +2,17 @@
 //!
 //! [`tasks`] turns a spec into studies; a [`study`] measures indices ([`measure`]) and judges them;
 //! [`search`](search()) solves it, [`explain`] puts the solution into an engineer's terms, [`procedure`]
-//! runs the report's trade-offs and the joint optimisation, [`conflict`] tells which demands stand
+//! runs the report's trade-offs and the joint optimisation, [`freedom`] tells how far the design may move
+//! from the optimum, [`delivered`] picks the design to hand over, [`conflict`] tells which demands stand
 //! against one another where they cannot all be met. A [`sweep`] measures many designs without a search.
 
 pub mod compromise;
 pub mod conflict;
+pub mod delivered;
 pub mod doubts;
 pub mod explain;
 pub mod form;
+pub mod freedom;
 mod lifted;
 pub mod margin;
 pub mod measure;

@@ -3,6 +3,7 @@
 use super::{
     conflict::Conflict,
     explain::Explained,
+    freedom::{Free, Loss},
     margin::{Margin, margins},
 };
 use crate::{
@@ -135,8 +136,15 @@ pub enum Delivered {
 /// A finished design.
 #[derive(Debug, Clone)]
 pub struct DesignResult {
-    /// The case with the designed suspension and profile.
+    /// The case with the suspension and profile delivered: within a small loss of the optimum, or the
+    /// optimum itself.
     pub case: Case,
+    /// The case of the optimum, to which certificates and prices belong.
+    pub optimum: Case,
+    /// What the design delivered loses of each goal against the optimum; empty if it is the optimum.
+    pub losses: Vec<Loss>,
+    /// The ranges over which the variables are free; empty where demands are missed.
+    pub free: Vec<Free>,
     /// Its performance.
     pub evaluation: Evaluation,
     /// Performance of the case as the spec gave it.
@@ -179,6 +187,9 @@ impl DesignResult {
             conditions: in_conditions(spec, &spec.case)?,
             margins: margins(&spec.case, &spec.demands, &spec.conditions),
             case: spec.case.clone(),
+            optimum: spec.case.clone(),
+            losses: Vec::new(),
+            free: Vec::new(),
             evaluation,
             delivered: Delivered::InTurn,
             stages: Vec::new(),
@@ -189,6 +200,23 @@ impl DesignResult {
             effort: Effort::default(),
             stopped: None,
         })
+    }
+
+    /// The largest relative loss of a goal against the optimum: of an index, or of a sum of relative
+    /// changes; 0 if the design delivered is the optimum or loses nothing.
+    pub fn loss(&self) -> f64 {
+        let losses = self.losses.iter().map(|loss| loss.share);
+        losses.fold(0.0, f64::max)
+    }
+
+    /// Whether the design delivered is the optimum itself.
+    pub fn is_optimum(&self) -> bool {
+        self.losses.is_empty()
+    }
+
+    /// The range over which a variable is free, where it is known.
+    pub fn free(&self, parameter: Parameter) -> Option<&Free> {
+        self.free.iter().find(|free| free.parameter == parameter)
     }
 
     /// Whether the trade-offs in turn miss what the delivered design, all at once, meets or comes

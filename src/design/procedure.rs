@@ -9,6 +9,8 @@ use std::time::Instant;
 
 use super::{
     conflict::conflict,
+    delivered::{Nearby, preferred},
+    freedom::{Free, Neighbourhood},
     margin::{Margin, margins, worst_value},
     outcome::{Compared, Delivered, DesignResult, Joint, StageResult, half_kalker, in_conditions},
     search::Searched,
@@ -27,7 +29,7 @@ use crate::{
         problem::Problem,
         solve::{Effort, Start},
     },
-    parameter::TradeOff,
+    parameter::{Parameter, TradeOff},
     spec::{Order, Spec},
 };
 
@@ -64,8 +66,8 @@ pub fn design(spec: &Spec, archive: &Archive) -> Result<DesignResult, DesignErro
     design_beside(spec, archive, |_| ()).map(|(result, ())| result)
 }
 
-/// As [`design`], with the result of `beside` for the delivered design; where all at once is searched
-/// only to compare, both run side by side.
+/// As [`design`], with the result of `beside` for the delivered design, side by side with what does not
+/// decide it: all at once where that is only to compare, and the ranges of the variables.
 ///
 /// # Errors
 ///
@@ -119,7 +121,11 @@ struct Procedure<'a> {
 
 /// The design to be delivered and how it was come to.
 struct Chosen {
+    /// The optimum.
     case: Case,
+    /// The design within a small loss of it; `None`: the optimum itself.
+    nearby: Option<Nearby>,
+    free: Vec<Free>,
     delivered: Delivered,
     stages: Vec<Stage>,
     rounds: usize,
@@ -146,13 +152,7 @@ impl Procedure<'_> {
         let mut standing = self.standing(&chosen.case, stages);
         let short = standing != Standing::default();
         let compare = !joint_only && (open.len() > 1 || short) && self.archive.stopped().is_none();
-        if compare && !short {
-            let case = chosen.case.clone();
-            let (joint, made) = rayon::join(|| self.joint(&case, given), || beside(&case));
-            chosen.joint = joint;
-            return (chosen, made);
-        }
-        if compare {
+        if compare && short {
             // In turn something is missed: all at once may meet it.
             chosen.joint = self.joint(&chosen.case, given);
             if let Some((joint, _)) = &chosen.joint {
@@ -169,13 +169,83 @@ impl Procedure<'_> {
             chosen.case = given.clone();
             chosen.delivered = Delivered::AsGiven;
         }
-        let made = beside(&chosen.case);
+        let around = (standing == Standing::default())
+            .then(|| self.around(&chosen))
+            .flatten();
+        chosen.nearby = around
+            .as_ref()
+            .and_then(|around| self.nearby(around, given));
+        let nearby = chosen.nearby.as_ref();
+        let (optimum, delivered) = (
+            &chosen.case,
+            nearby.map_or(&chosen.case, |nearby| &nearby.case),
+        );
+        let ((joint, free), made) = rayon::join(
+            || {
+                let joint = (compare && !short).then(|| self.joint(optimum, given));
+                let free = self.ranges(around.as_ref(), nearby);
+                (joint.flatten(), free)
+            },
+            || beside(delivered),
+        );
+        chosen.joint = chosen.joint.or(joint);
+        chosen.free = free;
         (chosen, made)
     }
 
     /// Everywhere, as thoroughly as the spec asks.
     fn start(&self) -> Start {
         Start::everywhere(self.spec.design.seed).until(self.spec.design.unseen)
+    }
+
+    /// The designs around the optimum. `None` where there is none: demands are missed, or nothing varies.
+    fn around(&self, chosen: &Chosen) -> Option<Neighbourhood> {
+        if self.archive.stopped().is_some() {
+            return None;
+        }
+        let searched = match (chosen.delivered, &chosen.joint, &chosen.stages[..]) {
+            (Delivered::InTurn, _, stages) => {
+                // Every trade-off keeps its own objective, and all keep all demands.
+                let study = self.tasks.joint(&chosen.case).study;
+                let is_unused = |parameter: &Parameter| {
+                    let mut stages = stages.iter();
+                    stages.any(|stage| stage.result.unused.contains(parameter))
+                };
+                let numbered = study.parameters().iter().enumerate();
+                let unused = numbered.filter(|(_, parameter)| is_unused(parameter));
+                let unused: Vec<usize> = unused.map(|(i, _)| i).collect();
+                return Neighbourhood::new(&study.without(&unused), &chosen.case, false);
+            }
+            (Delivered::AllAtOnce, Some((_, searched)), _) => searched,
+            (Delivered::AllAtOnce, None, [only]) => &only.best.searched,
+            // The design as given is delivered where demands are missed.
+            _ => return None,
+        };
+        let meets_all = searched.missed.is_empty() && searched.solved.point.feasible();
+        meets_all
+            .then(|| Neighbourhood::new(&searched.study, &chosen.case, true))
+            .flatten()
+    }
+
+    /// The preferred design within a small loss of the optimum, if it keeps every demand too.
+    fn nearby(&self, around: &Neighbourhood, given: &Case) -> Option<Nearby> {
+        self.archive.stage("the design to deliver");
+        let nearby = preferred(around, &self.spec.design, given, self.archive);
+        let nearby = nearby.ok().flatten()?;
+        let keeps_all = self.margins(&nearby.case).iter().all(Margin::met);
+        keeps_all.then_some(nearby)
+    }
+
+    /// The ranges of the variables, in which the design delivered lies if it loses no more.
+    fn ranges(&self, around: Option<&Neighbourhood>, nearby: Option<&Nearby>) -> Vec<Free> {
+        let Some(around) = around.filter(|_| self.archive.stopped().is_none()) else {
+            return Vec::new();
+        };
+        self.archive.stage("how free the variables are");
+        let share = self.spec.design.free_within;
+        let known = nearby.filter(|nearby| nearby.losses.iter().all(|loss| loss.share <= share));
+        let known: Vec<Case> = known.iter().map(|nearby| nearby.case.clone()).collect();
+        around.ranges(share, &known, self.archive)
     }
 
     fn margins(&self, case: &Case) -> Vec<Margin> {
@@ -205,6 +275,8 @@ impl Procedure<'_> {
             case: stages
                 .last()
                 .map_or_else(|| given.clone(), |stage| stage.case.clone()),
+            nearby: None,
+            free: Vec::new(),
             delivered: Delivered::AllAtOnce,
             stages,
             rounds: 0,
@@ -270,6 +342,8 @@ impl Procedure<'_> {
         }
         Chosen {
             case: now,
+            nearby: None,
+            free: Vec::new(),
             delivered: Delivered::InTurn,
             stages,
             rounds,
@@ -342,7 +416,9 @@ impl Procedure<'_> {
 
     fn finish(&self, chosen: Chosen) -> Result<DesignResult, EigenError> {
         let Chosen {
-            case,
+            case: optimum,
+            nearby,
+            free,
             delivered,
             stages,
             rounds,
@@ -350,6 +426,10 @@ impl Procedure<'_> {
             joint,
         } = chosen;
         let spec = self.spec;
+        let (case, losses) = nearby.map_or_else(
+            || (optimum.clone(), Vec::new()),
+            |nearby| (nearby.case, nearby.losses),
+        );
         let evaluation = Evaluation::new(&case)?;
         let margins = self.margins(&case);
         // The search with all demands knows which of them conflict.
@@ -381,6 +461,9 @@ impl Procedure<'_> {
             conditions: in_conditions(spec, &case)?,
             evaluation,
             case,
+            optimum,
+            losses,
+            free,
             delivered,
             stages,
             rounds,

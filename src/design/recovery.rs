@@ -51,7 +51,7 @@ fn is_of_design(failure: Failure) -> bool {
 
 /// The study without the terms that fail at every design looked at, for a reason that another
 /// suspension would not mend.
-fn with_values(study: &Study, start: &Start) -> Study {
+pub(super) fn with_values(study: &Study, start: &Start) -> Study {
     /// Designs looked at beside those to begin from.
     const OTHERS: usize = 4;
     let n = study.variables().len();

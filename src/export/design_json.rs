@@ -10,12 +10,14 @@ use crate::{
     design::{
         explain::{Bound, Chosen, Explained, LocalOptimum},
         form::form,
+        freedom::{End, EndKind, Loss},
         margin::{Margin, Verdict},
         outcome::{Delivered, DesignResult, Profile, StageResult},
         price::Price,
         sensitivity::Sensitivity,
     },
     evaluate::{checks::checks, curving::CurveStatus},
+    index::Index,
     optimize::{archive::Stop, certificate::Curvature, problem::Failure},
     spec::Spec,
 };
@@ -45,6 +47,11 @@ pub fn design(
             Delivered::AsGiven => "as-given",
         }),
     );
+    insert("prefer", json!(spec.design.prefer.name()));
+    insert("deliver_within", json!(spec.design.deliver_within));
+    insert("is_optimum", json!(result.is_optimum()));
+    insert("loss", json!(result.loss()));
+    insert("losses", result.losses.iter().map(loss).collect());
     insert("stopped", json!(result.stopped.map(Stop::code)));
     insert(
         "stopped_text",
@@ -56,11 +63,18 @@ pub fn design(
     insert("conflict", conflict(result));
     insert("coupling_rounds", json!(result.rounds));
     insert("coupling_settled", json!(result.settled));
-    insert("trade_offs", result.stages.iter().map(stage).collect());
-    insert("joint", joint(result));
+    let stages = result.stages.iter().map(|stage| {
+        let delivered = result
+            .delivered_stages()
+            .any(|own| std::ptr::eq(own, stage));
+        solution(stage, delivered.then_some((result, spec)))
+    });
+    insert("trade_offs", stages.collect());
+    insert("joint", joint(result, spec));
     insert("evaluations", json!(result.effort.evaluations));
     insert("failed_evaluations", failures_of(&result.effort.failures));
     insert("design_si", evaluation_json::inputs(&result.case));
+    insert("optimum_si", evaluation_json::inputs(&result.optimum));
     insert("speed_m_per_s", json!(result.case.service.speed));
     insert("track", json!(result.case.service.track.name));
     object.extend(evaluation_json::indices(&result.case, &result.evaluation));
@@ -132,7 +146,16 @@ pub(super) fn failures_of(failures: &BTreeMap<Failure, usize>) -> Value {
         .collect()
 }
 
-pub(super) fn stage(stage: &StageResult) -> Value {
+fn loss(loss: &Loss) -> Value {
+    json!({
+        "goal": loss.goal,
+        "index": loss.index.map(Index::name),
+        "share": loss.share,
+    })
+}
+
+/// A solved stage, with what is delivered of it where it led to the design delivered.
+fn solution(stage: &StageResult, delivered: Option<(&DesignResult, &Spec)>) -> Value {
     let Explained {
         goal,
         objective,
@@ -166,7 +189,7 @@ pub(super) fn stage(stage: &StageResult) -> Value {
         "evaluations": effort.evaluations,
         "failed_evaluations": effort.failed(),
         "failures": failures_of(&effort.failures),
-        "variables": chosen.iter().map(|c| variable(&stage.explained, c)).collect::<Vec<_>>(),
+        "variables": chosen.iter().map(|c| variable(&stage.explained, c, delivered)).collect::<Vec<_>>(),
         "without_influence": stage.unused.iter().map(|p| p.name()).collect::<Vec<_>>(),
         "active": active,
         "prices": prices.iter().map(|p| price(&stage.explained, p)).collect::<Vec<_>>(),
@@ -199,7 +222,10 @@ fn curvature(curvature: Curvature) -> Value {
     json!({ "kind": kind, "least_curvature": least })
 }
 
-fn variable(explained: &Explained, c: &Chosen) -> Value {
+fn variable(explained: &Explained, c: &Chosen, delivered: Option<(&DesignResult, &Spec)>) -> Value {
+    let free = delivered.and_then(|(result, _)| result.free(c.parameter));
+    let [from, to] = [0, 1].map(|k| free.map(|free| free.ends[k]));
+    let within = delivered.filter(|_| free.is_some());
     json!({
         "key": c.parameter.name(),
         "name": c.variable.name,
@@ -213,7 +239,21 @@ fn variable(explained: &Explained, c: &Chosen) -> Value {
         "bound_price": c.bound_price,
         "objective_elasticity": c.elasticity,
         "relative_gain_per_relative_increase": explained.gain_per_share(c),
+        "delivered_si": delivered.map(|(result, _)| c.parameter.get(&result.case)),
+        "free_from_si": from.map(|end| end.value),
+        "free_from_end": from.map(end),
+        "free_to_si": to.map(|end| end.value),
+        "free_to_end": to.map(end),
+        "free_within": within.map(|(_, spec)| spec.design.free_within),
     })
+}
+
+fn end(end: End) -> &'static str {
+    match end.kind {
+        EndKind::Bound => "bound",
+        EndKind::Verified => "verified",
+        EndKind::AtLeast => "at-least",
+    }
 }
 
 fn price(explained: &Explained, price: &Price) -> Value {
@@ -261,7 +301,7 @@ fn conflict(result: &DesignResult) -> Value {
     demands.collect()
 }
 
-fn joint(result: &DesignResult) -> Value {
+fn joint(result: &DesignResult, spec: &Spec) -> Value {
     let Some(joint) = &result.joint else {
         return Value::Null;
     };
@@ -272,10 +312,11 @@ fn joint(result: &DesignResult) -> Value {
             "joint_si": compared.joint.as_ref().ok(),
         })
     });
+    let delivered = result.joint_in_place_of_sequence();
     json!({
         "gain": joint.gain,
         "indices": indices.collect::<Vec<_>>(),
-        "solution": stage(&joint.stage),
+        "solution": solution(&joint.stage, delivered.then_some((result, spec))),
         "design_si": evaluation_json::inputs(&joint.case),
     })
 }

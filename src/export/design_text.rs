@@ -3,6 +3,7 @@
 use super::{
     certificate::{certificate, conflict, joint, margins},
     evaluation_text::{constraint_table, stability, title},
+    freedom::freedom,
     number::{both, signed_percent, significant},
     sheet::Sheet,
     status,
@@ -21,8 +22,8 @@ use crate::{
         curving::CurvingLimits,
         ride::{LateralRide, VerticalRide},
     },
-    index::Demands,
     parameter::TradeOff,
+    spec::Spec,
     units::Quantity,
     vehicle::GRAVITY,
 };
@@ -31,7 +32,7 @@ use crate::{
 pub fn design(
     name: &str,
     result: &DesignResult,
-    demands: &Demands,
+    spec: &Spec,
     matters: Option<&Sensitivity>,
     warnings: &[String],
 ) -> String {
@@ -45,6 +46,7 @@ pub fn design(
         trade_off(&mut sheet, stage);
     }
     joint(&mut sheet, result);
+    freedom(&mut sheet, result, &spec.design);
     margins(&mut sheet, result);
     performance(&mut sheet, result);
     stability(&mut sheet, &result.evaluation);
@@ -57,7 +59,7 @@ pub fn design(
         sheet.table(&[], &[1], &rows);
     }
     sheet.heading("Design form (Table 4.6.1)");
-    let rows: Vec<Vec<String>> = form(result, demands).iter().map(form_row).collect();
+    let rows: Vec<Vec<String>> = form(result, &spec.demands).iter().map(form_row).collect();
     sheet.table(&["step", "", "", "SI", "US"], &[1, 2], &rows);
     let failed = match result.effort.failed() {
         0 => String::new(),

@@ -9,6 +9,7 @@ pub mod design_text;
 pub mod evaluation_json;
 pub(crate) mod evaluation_text;
 pub mod file;
+pub(crate) mod freedom;
 pub mod modes;
 pub mod number;
 pub mod origin;

@@ -52,6 +52,11 @@ pub fn signed_percent(percent: f64) -> String {
     }
 }
 
+/// A share in percent with a sign only where it is negative, two decimals.
+pub fn unsigned_percent(percent: f64) -> String {
+    signed_percent(percent).trim_start_matches('+').to_owned()
+}
+
 /// A value in both unit systems, as in "320 km/h (200 mph)".
 pub(crate) fn value(quantity: Quantity, si: f64) -> String {
     let [si, us] = both(quantity, si);
@@ -70,6 +75,7 @@ mod tests {
     fn signs() {
         for (x, text) in [(1.234, "+1.23 %"), (-0.006, "-0.01 %"), (-0.004, "0.00 %")] {
             assert_eq!(signed_percent(x), text);
+            assert_eq!(unsigned_percent(x), text.trim_start_matches('+'));
         }
     }
 

@@ -39,6 +39,11 @@ const MANY: f64 = 14.0;
 /// Uniform points drawn per variable before the first that can be evaluated, and for every later
 /// one.
 const DRAWS: usize = 40;
+/// Designs per variable of an even covering, where no feasible design is known.
+const COVERING: usize = 16;
+/// Price of a violation by which its designs are ranked, and their distance in at least one variable.
+const START_PENALTY: f64 = 4.0;
+const APART: f64 = 0.12;
 /// An end of a variable's range is far from a design if it is this far, scaled.
 const FAR: f64 = 0.3;
 /// Times that a search goes on from a design better than what the searches that met it came to.
@@ -106,6 +111,7 @@ struct Multistart<'a> {
     others: VecDeque<Vec<f64>>,
     /// Optima from whose far ends was searched.
     turned: Vec<Vec<f64>>,
+    is_covered: bool,
     again: usize,
     basins: Basins,
     met: Option<Point>,
@@ -130,6 +136,7 @@ impl<'a> Multistart<'a> {
             failed: 0,
             others: start.designs.iter().cloned().collect(),
             turned: Vec::new(),
+            is_covered: false,
             again: 0,
             basins: Basins::default(),
             met: None,
@@ -166,7 +173,7 @@ impl<'a> Multistart<'a> {
                     return Ok(Some(Round::Uniform(self.sample.drain(..count).collect())));
                 }
             }
-            if !self.turn() && !self.go_on() {
+            if !self.cover(evaluations)? && !self.turn() && !self.go_on() {
                 return Ok(None);
             }
         }
@@ -210,6 +217,24 @@ impl<'a> Multistart<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Where no feasible design is known, covers the box evenly and takes the best designs there to
+    /// search from: feasible ones may be few, and the way to them too steep from elsewhere. Whether
+    /// there are any; it is done once.
+    fn cover(&mut self, evaluations: &Evaluations) -> Result<bool, Stop> {
+        let is_feasible = self.met.as_ref().is_some_and(Point::feasible);
+        if is_feasible || self.is_covered || self.everywhere.is_none() {
+            return Ok(false);
+        }
+        self.is_covered = true;
+        let covering: Vec<Vec<f64>> = (1..=COVERING * self.n).map(|i| halton(i, self.n)).collect();
+        for point in evaluations.all(&covering)? {
+            self.meet(&point);
+        }
+        let starts = evaluations.best_apart(START_PENALTY, APART, 2 + self.n);
+        self.others.extend(starts.into_iter().map(|point| point.x));
+        Ok(!self.others.is_empty())
     }
 
     /// Puts every variable of the best design to the ends of its range that are far away. Whether

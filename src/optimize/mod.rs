@@ -22,5 +22,6 @@ mod start;
 mod subproblem;
 mod surrogate;
 mod violation;
+pub mod within;
 
 pub(crate) use surrogate::follow;

@@ -10,6 +10,7 @@ mod certificate;
 pub mod charts;
 mod checks;
 mod form;
+mod freedom;
 mod front;
 mod gain;
 mod glance;

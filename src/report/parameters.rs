@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::{
     Report,
+    freedom::freedom,
     table::{Column, table},
     typeset::symbol,
 };
@@ -35,6 +36,7 @@ pub fn parameters(report: &Report) -> Markup {
                 "on its secondary springs (4.6-8, 9, 14, 15); "
                 (symbol("K_b")) " = " (symbol("d_p^2")) " " (symbol("K_px")) "."
             }
+            (freedom(report))
         }
     }
 }

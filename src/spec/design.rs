@@ -59,6 +59,18 @@ pub enum Order {
     Joint,
 }
 
+/// Which design is delivered within a small loss of the optimum.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Prefer {
+    /// The one nearest to the design as given.
+    #[default]
+    AsGiven,
+    /// The one with the softest springs.
+    Softest,
+    /// The optimum itself.
+    Optimum,
+}
+
 /// What the design may vary. Parameters that are not listed keep the value of the case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DesignSpace {
@@ -70,6 +82,12 @@ pub struct DesignSpace {
     pub seed: u64,
     /// Expected share of the space in basins not yet seen down to which a search goes on.
     pub unseen: f64,
+    /// Loss of each objective within which the ranges of the variables are given, relative.
+    pub free_within: f64,
+    /// Loss of each objective within which the design is delivered, relative.
+    pub deliver_within: f64,
+    /// Which design is delivered within that loss.
+    pub prefer: Prefer,
 }
 
 impl Default for DesignSpace {
@@ -79,6 +97,9 @@ impl Default for DesignSpace {
             order: Order::default(),
             seed: 1,
             unseen: UNSEEN,
+            free_within: 0.01,
+            deliver_within: 0.001,
+            prefer: Prefer::default(),
         }
     }
 }
@@ -93,11 +114,12 @@ impl DesignSpace {
     }
 }
 
-/// Bounds on `unseen`: from thousands of local searches to a handful.
-const UNSEEN_RANGE: [f64; 2] = [1e-4, 0.5];
-
 /// Names of [`Order`].
 pub(super) const ORDERS: [&str; 2] = ["sequential", "joint"];
+/// Names of [`Prefer`].
+pub(super) const PREFERENCES: [&str; 3] = ["as-given", "softest", "optimum"];
+/// Losses, and shares of the space, that may be allowed.
+pub(super) const SHARES: Range = Range::PositiveUpTo(0.5);
 
 /// Reads `[design]`.
 pub(super) fn read(document: &Document, mistakes: &mut Vec<Diagnostic>) -> DesignSpace {
@@ -134,24 +156,42 @@ pub(super) fn read(document: &Document, mistakes: &mut Vec<Diagnostic>) -> Desig
     if let Some(value) = document.get(keys::SEED) {
         design.seed = mistakes.collect(whole(value, "seed")).unwrap_or(1);
     }
-    if let Some(value) = document.get(keys::UNSEEN)
-        && let Some(share) = mistakes.collect(unseen(value))
+    share(document, keys::UNSEEN, &mut design.unseen, mistakes);
+    share(
+        document,
+        keys::FREE_WITHIN,
+        &mut design.free_within,
+        mistakes,
+    );
+    share(
+        document,
+        keys::DELIVER_WITHIN,
+        &mut design.deliver_within,
+        mistakes,
+    );
+    if let Some(value) = document.get(keys::PREFER)
+        && let Some(i) = mistakes.collect(choice(value, "prefer", &PREFERENCES))
     {
-        design.unseen = share;
+        design.prefer = [Prefer::AsGiven, Prefer::Softest, Prefer::Optimum][i];
     }
     design
 }
 
-/// A share of the space, of which a search can tell.
-fn unseen(value: &Value) -> Result<f64, Diagnostic> {
-    let share = number(value, "unseen", Quantity::Dimensionless, Range::Positive)?;
-    let [low, high] = UNSEEN_RANGE;
-    if (low..=high).contains(&share) {
-        return Ok(share);
+impl Prefer {
+    /// Name in specs and files.
+    pub fn name(self) -> &'static str {
+        PREFERENCES[self as usize]
     }
-    let message = format!("`unseen` is {share}");
-    let expected = format!("expected a share from {low} to {high}");
-    Err(Diagnostic::at(value.span(), message, expected))
+}
+
+/// Reads a relative loss, or a share of the space.
+fn share(document: &Document, path: &str, share: &mut f64, mistakes: &mut Vec<Diagnostic>) {
+    let name = path.rsplit_once('.').map_or(path, |(_, name)| name);
+    if let Some(value) = document.get(path)
+        && let Some(given) = mistakes.collect(number(value, name, Quantity::Dimensionless, SHARES))
+    {
+        *share = given;
+    }
 }
 
 /// `["1 MN/m", "9 MN/m"]`, `{ choices = [0.05, 0.10] }`, `{ tied_to = "…", ratio = 0.5 }` or a
@@ -196,8 +236,7 @@ fn freedom(parameter: Parameter, value: &Value) -> Result<Freedom, Diagnostic> {
                         ));
                     }
                     let ratio = ratio.map_or(Ok(1.0), |(_, ratio)| {
-                        let dimensionless = Quantity::Dimensionless;
-                        number(ratio, "ratio", dimensionless, Range::Positive)
+                        number(ratio, "ratio", Quantity::Dimensionless, Range::Positive)
                     })?;
                     Ok(Freedom::Tied { to, ratio })
                 }

@@ -28,7 +28,7 @@ mod value;
 
 pub use conditions::Condition;
 pub use demands::{FRONT_POINTS, Front, Goal};
-pub use design::{DesignSpace, Freedom, Interval, Order};
+pub use design::{DesignSpace, Freedom, Interval, Order, Prefer};
 pub use diagnostic::{Diagnostic, Diagnostics, Doubts, printable};
 pub use keys::inputs_si;
 pub use read::{MAX_BYTES, STARTER, Spec};

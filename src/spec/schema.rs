@@ -9,15 +9,14 @@ use serde_json::{Map, Value, json};
 
 use super::keys::{self, ENTRIES, Need, TABLES};
 use super::{
-    FRONT_POINTS,
-    design::{ORDERS, may_be_tied},
+    DesignSpace, FRONT_POINTS,
+    design::{ORDERS, PREFERENCES, SHARES, may_be_tied},
     tracks,
 };
 use crate::index::{Index, Sense};
-use crate::optimize::solve::UNSEEN;
 use crate::parameter::Parameter;
 use crate::track::Track;
-use crate::units::Range;
+use crate::units::{Quantity, Range};
 use values::{definitions, described, described_key, interval, number};
 
 /// The schema.
@@ -218,10 +217,11 @@ fn own_form(path: &str) -> Value {
             { "type": "string", "maxLength": NAME },
         ] }),
         keys::ORDER => json!({ "enum": ORDERS, "default": ORDERS[0] }),
-        keys::UNSEEN => json!({
-            "type": "number", "minimum": 1e-4, "maximum": 0.5, "default": UNSEEN
-        }),
+        keys::UNSEEN => share(DesignSpace::default().unseen),
         keys::SEED => json!({ "type": "integer", "minimum": 0, "default": 1 }),
+        keys::PREFER => json!({ "enum": PREFERENCES, "default": PREFERENCES[0] }),
+        keys::DELIVER_WITHIN => share(DesignSpace::default().deliver_within),
+        keys::FREE_WITHIN => share(DesignSpace::default().free_within),
         keys::MAXIMIZE => goals(Sense::AtLeast),
         keys::MINIMIZE => goals(Sense::AtMost),
         keys::FRONT_INDICES => json!({
@@ -251,6 +251,13 @@ fn own_form(path: &str) -> Value {
         _ => json!({}),
     };
     described(form, &text)
+}
+
+/// A relative loss, or a share of the space.
+fn share(default: f64) -> Value {
+    let mut schema = number(Quantity::Dimensionless, SHARES);
+    schema["default"] = json!(default);
+    schema
 }
 
 /// Longest name of a track or condition.

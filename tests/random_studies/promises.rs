@@ -58,10 +58,11 @@ pub fn of_design(spec: &Spec, budget: usize, twice: bool) -> Vec<String> {
     }
     broken.extend(wrong_margins(spec, &result));
     broken.extend(wrong_statuses(&result));
+    broken.extend(wrong_freedom(spec, &result));
     if let Some(why) = worse_than_given(spec, &result) {
         broken.push(why);
     }
-    let text = design_text::design("study", &result, &spec.demands, None, &[]);
+    let text = design_text::design("study", &result, spec, None, &[]);
     if !is_number(&format!("{result:?}")) || !is_number(&text) {
         broken.push("no number: in the result".into());
     }
@@ -304,6 +305,55 @@ fn wrong_statuses(result: &DesignResult) -> Vec<String> {
     }
     if result.met() && result.conflict.is_some() {
         wrong("all met and in conflict", Status::Infeasible);
+    }
+    broken
+}
+
+/// What the design delivered and the ranges of the variables say that is not so.
+fn wrong_freedom(spec: &Spec, result: &DesignResult) -> Vec<String> {
+    let mut broken = Vec::new();
+    let says = !result.free.is_empty() || !result.is_optimum();
+    if says && !result.met() {
+        broken.push("freedom: though demands are missed".into());
+    }
+    if result.is_optimum() && result.case != result.optimum {
+        broken.push("delivered: not the optimum it is called".into());
+    }
+    for loss in &result.losses {
+        let most = spec.design.deliver_within * (1.0 + ROUNDING.sqrt());
+        let own = loss.index.map_or(loss.share, |index| {
+            let has = |case| worst_value(case, &spec.conditions, index).unwrap_or(f64::NAN);
+            let [own, best] = [has(&result.case), has(&result.optimum)];
+            match (index.sense(), index.scale()) {
+                (Sense::AtLeast, Scale::Logarithmic) => 1.0 - own / best,
+                (Sense::AtMost, Scale::Logarithmic) => own / best - 1.0,
+                (_, Scale::Linear) => (best - own) / best.abs(),
+            }
+        });
+        let differs = (own - loss.share).abs() > ROUNDING.sqrt();
+        if !own.is_finite() || own > most || loss.share > most || differs {
+            broken.push(format!("loss: {} {own} told {}", loss.goal, loss.share));
+        }
+    }
+    let small = spec.design.deliver_within <= spec.design.free_within;
+    for free in &result.free {
+        let Some(Freedom::Between(bounds)) = spec.design.freedom(free.parameter) else {
+            broken.push(format!("free: {} is not open", free.parameter.name()));
+            continue;
+        };
+        let slack = ROUNDING * bounds.upper;
+        let [from, to] = free.ends.map(|end| end.value);
+        if from < bounds.lower - slack || to > bounds.upper + slack {
+            broken.push(format!("free: {} beyond its bounds", free.parameter.name()));
+        }
+        let designs = [Some(&result.optimum), Some(&result.case).filter(|_| small)];
+        for case in designs.into_iter().flatten() {
+            let value = free.parameter.get(case);
+            if value < from - slack || value > to + slack {
+                let name = free.parameter.name();
+                broken.push(format!("free: {name} {value} outside {from} to {to}"));
+            }
+        }
     }
     broken
 }

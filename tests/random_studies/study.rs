@@ -52,10 +52,25 @@ fn spoil(rng: &mut Random, text: &mut String) {
     *text = chars.into_iter().collect();
 }
 
+/// Which design is delivered, in half of the studies.
+fn delivery(rng: &mut Random, lines: &mut Vec<String>) {
+    if rng.random_bool(0.5) {
+        let prefer = ["as-given", "softest", "optimum"][rng.random_range(0..3)];
+        lines.push(format!("design.prefer = \"{prefer}\""));
+    }
+    for key in ["deliver_within", "free_within"] {
+        if rng.random_bool(0.2) {
+            let share = 10_f64.powf(rng.random_range(-5.0..-0.5));
+            lines.push(format!("design.{key} = {share}"));
+        }
+    }
+}
+
 fn lines(rng: &mut Random) -> Vec<String> {
     let mut lines = vec!["vehicle.base = \"prototype\"".to_owned()];
     let case = vehicle(rng, &mut lines);
     design(rng, &case, &mut lines);
+    delivery(rng, &mut lines);
     for index in indices(rng, 4) {
         lines.push(demand(rng, &case, index, ""));
     }

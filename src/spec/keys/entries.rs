@@ -20,6 +20,9 @@ pub(in crate::spec) const CONDITIONS: &str = "conditions";
 pub(in crate::spec) const ORDER: &str = "design.order";
 pub(in crate::spec) const SEED: &str = "design.seed";
 pub(in crate::spec) const UNSEEN: &str = "design.unseen";
+pub(in crate::spec) const PREFER: &str = "design.prefer";
+pub(in crate::spec) const DELIVER_WITHIN: &str = "design.deliver_within";
+pub(in crate::spec) const FREE_WITHIN: &str = "design.free_within";
 pub(in crate::spec) const MAXIMIZE: &str = "objective.maximize";
 pub(in crate::spec) const MINIMIZE: &str = "objective.minimize";
 pub(in crate::spec) const FRONT_INDICES: &str = "pareto.indices";
@@ -61,8 +64,28 @@ pub static ENTRIES: &[Entry] = &[
         path: UNSEEN,
         meaning: "share of the space that may lie in basins of optima not yet seen, by the estimate \
                   of Boender and Rinnooy Kan: the search goes on until it is smaller",
-        form: "a number from 0.0001 to 0.5",
+        form: "a number above 0, 0.5 at the most",
         default: "0.05",
+    },
+    Entry {
+        path: PREFER,
+        meaning: "which design is delivered within `deliver_within` of the optimum: the one nearest \
+                  to the design as given, the one with the softest springs, or the optimum itself",
+        form: "\"as-given\", \"softest\" or \"optimum\"",
+        default: "\"as-given\"",
+    },
+    Entry {
+        path: DELIVER_WITHIN,
+        meaning: "what the design delivered may lose of each objective against the optimum, as a share",
+        form: "a number above 0, 0.5 at the most",
+        default: "0.001",
+    },
+    Entry {
+        path: FREE_WITHIN,
+        meaning: "what each objective may lose, as a share, over the ranges that `bogie optimize` gives \
+                  for the variables",
+        form: "a number above 0, 0.5 at the most",
+        default: "0.01",
     },
     Entry {
         path: MAXIMIZE,

@@ -19,8 +19,8 @@ use crate::index::Index;
 use crate::parameter::Parameter;
 
 pub(super) use entries::{
-    BASE, CONDITIONS, FRONT_BOUNDS, FRONT_INDICES, FRONT_POINTS, MAXIMIZE, MINIMIZE, ORDER, SEED,
-    TRACK, TRACKS, UNSEEN,
+    BASE, CONDITIONS, DELIVER_WITHIN, FREE_WITHIN, FRONT_BOUNDS, FRONT_INDICES, FRONT_POINTS,
+    MAXIMIZE, MINIMIZE, ORDER, PREFER, SEED, TRACK, TRACKS, UNSEEN,
 };
 
 /// The numeric keys of a case.
