@@ -24,7 +24,7 @@ use super::{
 };
 use crate::optimize::{
     archive::Archive,
-    certificate::HOLDS,
+    certificate::{Certificate, HOLDS},
     local::Status,
     problem::{Point, Problem, Values, largest},
     solve::{Effort, NoDesign, Solved, Start},
@@ -262,10 +262,40 @@ fn holding(closest: &Lifted, values: &Values, terms: usize) -> Vec<(usize, f64)>
             shares[closest.study.term_of(piece.index)] += share;
         }
     }
+    if let Some(certificate) = certificate {
+        share_lifted_speed(&closest.study, values, certificate, &mut shares);
+    }
     let total: f64 = shares.iter().filter(|share| **share > HOLDS).sum();
     let numbered = shares.into_iter().enumerate();
     numbered
         .filter(|(_, share)| *share > HOLDS)
         .map(|(k, share)| (k, share / total))
         .collect()
+}
+
+/// Gives the share of the lifted speed, which is one variable for all conditions, to those whose damping
+/// holds it.
+fn share_lifted_speed(
+    study: &Study,
+    values: &Values,
+    certificate: &Certificate,
+    shares: &mut [f64],
+) {
+    let lifted: Vec<usize> = (0..shares.len())
+        .filter(|k| study.is_lifted_term(*k))
+        .collect();
+    let speed: f64 = lifted.iter().map(|k| shares[*k]).sum();
+    let mut held = vec![0.0; shares.len()];
+    let constraints = values.constraints.iter();
+    for (piece, multiplier) in constraints.zip(&certificate.constraint_multipliers) {
+        if let Some(held) = held.get_mut(study.term_of(piece.index)) {
+            *held += multiplier;
+        }
+    }
+    let total: f64 = lifted.iter().map(|k| held[*k]).sum();
+    if total > 0.0 {
+        for k in lifted {
+            shares[k] = speed * held[k] / total;
+        }
+    }
 }
