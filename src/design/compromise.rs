@@ -67,13 +67,28 @@ pub fn compromise(
         descent.reduce(&[Rank::Plain, Rank::InCurve], &[Rank::Coverage])?;
     }
     let Descent {
-        x,
-        mut missed,
-        effort,
-        ..
+        x, missed, effort, ..
     } = descent;
+    let mut found = best_beside(study, start, x, missed, archive)?;
+    found.0.solved.effort.add(&effort);
+    Ok(found)
+}
+
+/// The best objective beside demands that are missed, from the design at `x`, which misses no others; and
+/// these demands with what they reach there.
+///
+/// # Errors
+///
+/// [`NoDesign`] if not one design could be evaluated.
+pub fn best_beside(
+    study: &Study,
+    start: &Start,
+    x: Vec<f64>,
+    mut missed: Vec<Missed>,
+    archive: &Archive,
+) -> Result<(Lifted, Vec<Missed>), NoDesign> {
+    let n = study.parameters().len();
     let mut last = best_of_relaxed(&relax(study, &missed), start, x, archive)?;
-    last.solved.effort.add(&effort);
     for missed in &mut missed {
         let alone = study.with_roles(|i, term| (i == missed.term).then_some(as_objective(term)));
         missed.reached = Reached::new(&alone, &last.solved.point.x[..n]).value(0);
@@ -87,6 +102,27 @@ pub fn compromise(
         last.solved.status = Status::Infeasible;
     }
     Ok((last, missed))
+}
+
+/// Demands of a study that are missed at `x` beside some known ones: they hold nothing, and form a group
+/// behind these.
+pub fn also_missed(study: &Study, known: &[Missed], x: &[f64]) -> Vec<Missed> {
+    let group = known.iter().map(|missed| missed.group + 1).max();
+    let open = study.with_roles(|i, term| {
+        let is_known = known.iter().any(|missed| missed.term == i);
+        let is_demand = matches!(term.role, Role::Constraint { .. });
+        (is_demand && !is_known).then(|| as_objective(term))
+    });
+    let others = study
+        .demands()
+        .filter(|i| known.iter().all(|missed| missed.term != *i));
+    let reached = Reached::new(&open, x);
+    let all = others.enumerate().map(|(k, term)| {
+        let group = group.unwrap_or_default();
+        reached.unheld(study, [term, k], group)
+    });
+    // What is short within the tolerance would leave no design either.
+    all.filter(|missed| missed.violation() > 0.0).collect()
 }
 
 /// The lexicographic minimax on its way.

@@ -77,14 +77,16 @@ impl Surrogate {
     }
 }
 
+/// Factor of normal equations; `None` where they are singular.
+type Factor = Option<Cholesky<f64, Dyn>>;
+
 /// The least-squares problems for the curvatures of pieces that are known at some designs.
 struct Secants {
     n: usize,
     /// Displacements of the designs.
     displacements: Vec<DVector<f64>>,
-    /// Factors of the normal equations, by the designs at which a piece is known; `None` where they
-    /// are singular.
-    factors: Vec<(Vec<bool>, Option<Cholesky<f64, Dyn>>)>,
+    /// By the designs at which a piece is known.
+    factors: Vec<(Vec<bool>, Factor)>,
 }
 
 impl Secants {

@@ -28,6 +28,23 @@ impl Study {
         numbered.filter(|(_, terms)| !terms.is_empty()).collect()
     }
 
+    /// Numbers of the conditions in which the study asks for something.
+    pub fn conditions_asked(&self) -> Vec<usize> {
+        let asked = self.by_condition();
+        asked.into_iter().map(|(condition, _)| condition).collect()
+    }
+
+    /// Numbers of the conditions in which the design at scaled coordinates `x` has no result.
+    pub fn failing(&self, x: &[f64]) -> Vec<usize> {
+        let case = self.design(x);
+        let conditions = self.by_condition();
+        let fails = |(condition, terms): &(usize, Vec<usize>)| {
+            let measured = self.measure_in(*condition, terms, &case, x, Detail::Values);
+            measured.err().map(|_| *condition)
+        };
+        conditions.par_iter().filter_map(fails).collect()
+    }
+
     /// Pieces of some terms, all of one condition, for the design `case` at scaled coordinates `x`.
     fn measure_in(
         &self,
