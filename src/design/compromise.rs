@@ -24,7 +24,7 @@ use super::{
 };
 use crate::optimize::{
     archive::Archive,
-    certificate::HOLDS,
+    certificate::{Certificate, HOLDS},
     local::Status,
     problem::{Point, Problem, Values, largest},
     solve::{Effort, NoDesign, Solved, Start},
@@ -67,13 +67,28 @@ pub fn compromise(
         descent.reduce(&[Rank::Plain, Rank::InCurve], &[Rank::Coverage])?;
     }
     let Descent {
-        x,
-        mut missed,
-        effort,
-        ..
+        x, missed, effort, ..
     } = descent;
+    let mut found = best_beside(study, start, x, missed, archive)?;
+    found.0.solved.effort.add(&effort);
+    Ok(found)
+}
+
+/// The best objective beside demands that are missed, from the design at `x`, which misses no others; and
+/// these demands with what they reach there.
+///
+/// # Errors
+///
+/// [`NoDesign`] if not one design could be evaluated.
+pub fn best_beside(
+    study: &Study,
+    start: &Start,
+    x: Vec<f64>,
+    mut missed: Vec<Missed>,
+    archive: &Archive,
+) -> Result<(Lifted, Vec<Missed>), NoDesign> {
+    let n = study.parameters().len();
     let mut last = best_of_relaxed(&relax(study, &missed), start, x, archive)?;
-    last.solved.effort.add(&effort);
     for missed in &mut missed {
         let alone = study.with_roles(|i, term| (i == missed.term).then_some(as_objective(term)));
         missed.reached = Reached::new(&alone, &last.solved.point.x[..n]).value(0);
@@ -87,6 +102,27 @@ pub fn compromise(
         last.solved.status = Status::Infeasible;
     }
     Ok((last, missed))
+}
+
+/// Demands of a study that are missed at `x` beside some known ones: they hold nothing, and form a group
+/// behind these.
+pub fn also_missed(study: &Study, known: &[Missed], x: &[f64]) -> Vec<Missed> {
+    let group = known.iter().map(|missed| missed.group + 1).max();
+    let open = study.with_roles(|i, term| {
+        let is_known = known.iter().any(|missed| missed.term == i);
+        let is_demand = matches!(term.role, Role::Constraint { .. });
+        (is_demand && !is_known).then(|| as_objective(term))
+    });
+    let others = study
+        .demands()
+        .filter(|i| known.iter().all(|missed| missed.term != *i));
+    let reached = Reached::new(&open, x);
+    let all = others.enumerate().map(|(k, term)| {
+        let group = group.unwrap_or_default();
+        reached.unheld(study, [term, k], group)
+    });
+    // What is short within the tolerance would leave no design either.
+    all.filter(|missed| missed.violation() > 0.0).collect()
 }
 
 /// The lexicographic minimax on its way.
@@ -262,10 +298,40 @@ fn holding(closest: &Lifted, values: &Values, terms: usize) -> Vec<(usize, f64)>
             shares[closest.study.term_of(piece.index)] += share;
         }
     }
+    if let Some(certificate) = certificate {
+        share_lifted_speed(&closest.study, values, certificate, &mut shares);
+    }
     let total: f64 = shares.iter().filter(|share| **share > HOLDS).sum();
     let numbered = shares.into_iter().enumerate();
     numbered
         .filter(|(_, share)| *share > HOLDS)
         .map(|(k, share)| (k, share / total))
         .collect()
+}
+
+/// Gives the share of the lifted speed, which is one variable for all conditions, to those whose damping
+/// holds it.
+fn share_lifted_speed(
+    study: &Study,
+    values: &Values,
+    certificate: &Certificate,
+    shares: &mut [f64],
+) {
+    let lifted: Vec<usize> = (0..shares.len())
+        .filter(|k| study.is_lifted_term(*k))
+        .collect();
+    let speed: f64 = lifted.iter().map(|k| shares[*k]).sum();
+    let mut held = vec![0.0; shares.len()];
+    let constraints = values.constraints.iter();
+    for (piece, multiplier) in constraints.zip(&certificate.constraint_multipliers) {
+        if let Some(held) = held.get_mut(study.term_of(piece.index)) {
+            *held += multiplier;
+        }
+    }
+    let total: f64 = lifted.iter().map(|k| held[*k]).sum();
+    if total > 0.0 {
+        for k in lifted {
+            shares[k] = speed * held[k] / total;
+        }
+    }
 }

@@ -46,7 +46,8 @@ pub struct Opposed {
 
 /// The conflict among the demands that a search has missed. `None` if it has missed none.
 pub fn conflict(searched: &Searched, seed: u64, archive: &Archive) -> Option<Conflict> {
-    let missed: Vec<&Missed> = searched.missed.iter().filter(|m| !m.met()).collect();
+    let holds = |missed: &&Missed| !missed.met() && missed.share > 0.0;
+    let missed: Vec<&Missed> = searched.missed.iter().filter(holds).collect();
     let n = searched.asked.parameters().len();
     let x = &searched.solved.point.x[..n];
     let opposed = |missed: &&Missed| Opposed {

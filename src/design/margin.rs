@@ -1,5 +1,7 @@
 //! How a design stands to what is asked of it, in every condition.
 
+use rayon::prelude::*;
+
 use super::measure::{Wanted, absence, measure_each, worst};
 use crate::{
     case::Case,
@@ -102,10 +104,12 @@ pub fn value(case: &Case, index: Index) -> Result<f64, Failure> {
 ///
 /// [`Failure`] where the case has no such performance in one of them.
 pub fn worst_value(case: &Case, conditions: &[Condition], index: Index) -> Result<f64, Failure> {
-    let further = conditions.iter().map(|condition| condition.apply(case));
-    let values = std::iter::once(case.clone()).chain(further);
-    let values = values.map(|case| value(&case, index));
-    let values = values.filter(|value| *value != Err(Failure::NoServiceCurve));
+    let further = conditions.par_iter().map(|condition| condition.apply(case));
+    let values = rayon::iter::once(case.clone()).chain(further);
+    let values: Vec<_> = values.map(|case| value(&case, index)).collect();
+    let values = values
+        .into_iter()
+        .filter(|value| *value != Err(Failure::NoServiceCurve));
     let all: Vec<f64> = values.collect::<Result<_, _>>()?;
     index.worst(all.into_iter()).ok_or(Failure::NoServiceCurve)
 }
@@ -117,9 +121,9 @@ pub fn margins(case: &Case, demands: &Demands, conditions: &[Condition]) -> Vec<
         let demands = demands.overridden(&condition.demands);
         (Some(condition.name.clone()), condition.apply(case), demands)
     });
-    nominal
-        .chain(further)
-        .flat_map(|(condition, case, demands)| {
+    let all: Vec<_> = nominal.chain(further).collect();
+    all.into_par_iter()
+        .flat_map_iter(|(condition, case, demands)| {
             let margins: Vec<Margin> = demands
                 .iter()
                 .map(|demand| {

@@ -27,7 +27,7 @@ pub struct Missed {
     pub reached: Option<f64>,
     /// Number of the group of demands that hold one another, from 0: the worst violated first.
     pub group: usize,
-    /// Share in the conflict: the shares of a group add up to one.
+    /// Share in the conflict: the shares of a group add up to one; 0 if it holds nothing.
     pub share: f64,
     /// Whether any design variable changes the index.
     pub influenced: bool,
@@ -97,6 +97,15 @@ impl<'a> Reached<'a> {
 
     /// Term `k` here and `term` of the study, as a missed demand.
     pub fn missed(&self, study: &Study, [term, k]: [usize; 2], group: usize, share: f64) -> Missed {
+        Missed {
+            share,
+            influenced: self.is_influenced(k),
+            ..self.unheld(study, [term, k], group)
+        }
+    }
+
+    /// As [`Reached::missed`], of a demand that holds nothing.
+    pub fn unheld(&self, study: &Study, [term, k]: [usize; 2], group: usize) -> Missed {
         let Role::Objective { origin, .. } = self.open.terms()[k].role else {
             unreachable!("the terms of a shortfall are objectives")
         };
@@ -108,8 +117,8 @@ impl<'a> Reached<'a> {
             required: origin,
             reached: self.value(k),
             group,
-            share,
-            influenced: self.is_influenced(k),
+            share: 0.0,
+            influenced: true,
         }
     }
 

@@ -22,6 +22,7 @@ pub mod pareto;
 pub mod price;
 pub mod procedure;
 mod recovery;
+pub mod screened;
 pub mod search;
 pub mod sensitivity;
 pub mod sequence;
@@ -32,4 +33,4 @@ pub mod sweep;
 pub mod tasks;
 mod unused;
 
-pub use search::search;
+pub use search::{search, search_in_all};

@@ -1,5 +1,7 @@
 //! What the design procedure hands over.
 
+use rayon::prelude::*;
+
 use super::{
     conflict::Conflict,
     explain::Explained,
@@ -18,7 +20,7 @@ use crate::{
         solve::{Coverage, Effort},
     },
     parameter::{Parameter, TradeOff},
-    spec::Spec,
+    spec::{Condition, Spec},
 };
 
 /// What one trade-off gave, or all at once.
@@ -102,15 +104,18 @@ pub struct InCondition {
 
 /// Performance of a case in the further conditions of a spec.
 pub(super) fn in_conditions(spec: &Spec, case: &Case) -> Result<Vec<InCondition>, EigenError> {
-    let conditions = spec.conditions.iter().map(|condition| {
+    let evaluated = |condition: &Condition| {
         let case = condition.apply(case);
         Ok(InCondition {
             name: condition.name.clone(),
             evaluation: Evaluation::new(&case)?,
             case,
         })
-    });
-    conditions.collect()
+    };
+    let conditions: Vec<Result<InCondition, EigenError>> =
+        spec.conditions.par_iter().map(evaluated).collect();
+    // The first error in the spec's order, whatever the threads do.
+    conditions.into_iter().collect()
 }
 
 /// Performance of a case at half the creep coefficients (4.5.4).

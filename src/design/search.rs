@@ -1,10 +1,11 @@
 //! Solving a study; where its demands cannot all be met, the best compromise.
 
 use super::{
-    compromise::{compromise, feasible},
+    compromise::{best_beside, compromise, feasible},
     lifted::{Lifted, solve_lifted},
     missed::Missed,
     recovery::recover,
+    screened::{Screened, Settled, screened},
     study::Study,
 };
 use crate::optimize::{
@@ -40,12 +41,54 @@ impl Searched {
     }
 }
 
-/// Solves a study. Where no design meets all demands, the solution is the [`compromise`].
+/// Solves a study. Where no design meets all demands, the solution is the [`compromise`]. With more
+/// conditions than [`MANY`](super::screened::MANY) it is searched through those that matter.
 ///
 /// # Errors
 ///
 /// [`NoDesign`] if not one design could be evaluated.
 pub fn search(study: &Study, start: &Start, archive: &Archive) -> Result<Searched, NoDesign> {
+    let solve = |study: &Study, start: &Start| search_in_all(study, start, archive).map(Some);
+    let settled = match screened(study, start, archive, solve)? {
+        Screened::All | Screened::None => return search_in_all(study, start, archive),
+        Screened::Ended(found) => return Ok(found),
+        Screened::Settled(settled) => settled,
+    };
+    let same_terms = settled.found.asked.terms().len() == settled.terms.len();
+    let whole = match (settled.found.misses(), same_terms) {
+        (true, true) => beside_missed(study, &settled, archive),
+        _ => search_in_all(study, &settled.near, archive),
+    };
+    settled.finish(whole)
+}
+
+/// The compromise of working conditions in all conditions.
+fn beside_missed(
+    study: &Study,
+    settled: &Settled,
+    archive: &Archive,
+) -> Result<Searched, NoDesign> {
+    let (missed, x) = (settled.missed(study), settled.near.designs[0].clone());
+    let (Lifted { study: own, solved }, missed) =
+        best_beside(study, &settled.near, x, missed, archive)?;
+    Ok(Searched {
+        asked: study.clone(),
+        study: own,
+        solved,
+        missed,
+    })
+}
+
+/// As [`search`], in all conditions from the beginning.
+///
+/// # Errors
+///
+/// As [`search`].
+pub fn search_in_all(
+    study: &Study,
+    start: &Start,
+    archive: &Archive,
+) -> Result<Searched, NoDesign> {
     let (asked, start, found) = match solve_lifted(study, start, archive) {
         Err(NoDesign::Failed(reason)) => recover(study, start, archive, reason)?,
         other => (study.clone(), start.clone(), other?),
@@ -68,6 +111,26 @@ pub fn search(study: &Study, start: &Start, archive: &Archive) -> Result<Searche
 ///
 /// As [`search`].
 pub fn search_feasible(
+    study: &Study,
+    start: &Start,
+    archive: &Archive,
+) -> Result<Option<Searched>, NoDesign> {
+    let solve = |study: &Study, start: &Start| feasible_in_all(study, start, archive);
+    let settled = match screened(study, start, archive, solve)? {
+        Screened::All => return solve(study, start),
+        Screened::None => return Ok(None),
+        Screened::Ended(found) => return Ok(Some(found)),
+        Screened::Settled(settled) => settled,
+    };
+    let whole = match solve(study, &settled.near) {
+        Ok(None) => return Ok(None),
+        Ok(Some(whole)) => Ok(whole),
+        Err(error) => Err(error),
+    };
+    settled.finish(whole).map(Some)
+}
+
+fn feasible_in_all(
     study: &Study,
     start: &Start,
     archive: &Archive,

@@ -3,6 +3,8 @@
 
 use std::sync::OnceLock;
 
+use sha2::{Digest as _, Sha256};
+
 use super::{LinearSystem, Row, elimination::Stiffness};
 use crate::track::Irregularity;
 
@@ -27,6 +29,77 @@ impl ForcedModel {
     pub fn stiffness(&self) -> &Stiffness {
         self.elimination
             .get_or_init(|| Stiffness::new(&self.system))
+    }
+}
+
+/// Digest of all numbers of a model: SHA-256.
+pub type Digest = [u8; 32];
+
+impl ForcedModel {
+    /// Digest of the model's equations, inputs and outputs, and of some numbers beside it, by their bits.
+    pub fn digest(&self, beside: &[f64]) -> Digest {
+        let Self {
+            system,
+            elimination: _,
+            excitations,
+            outputs,
+            lags,
+        } = self;
+        let LinearSystem {
+            mass,
+            inputs,
+            stiffness,
+            damping,
+            mirrored,
+            alike,
+        } = system;
+        let mut bytes: Vec<u8> = Vec::with_capacity(1 << 13);
+        let mut whole = |number: usize| bytes.extend((number as u64).to_le_bytes());
+        whole(*inputs);
+        for pairs in [mirrored, alike] {
+            whole(pairs.len());
+            for i in pairs.iter().flatten() {
+                whole(*i);
+            }
+        }
+        for excitation in excitations {
+            whole(excitation.irregularity as usize);
+            for i in excitation.inputs {
+                whole(i);
+            }
+        }
+        let mut real = |number: f64| bytes.extend(number.to_bits().to_le_bytes());
+        let scales = excitations.iter().map(|excitation| &excitation.scale);
+        for number in beside.iter().chain(mass).chain(lags).chain(scales) {
+            real(*number);
+        }
+        // Most entries are zero: the others count with their places.
+        for matrix in std::iter::once(stiffness).chain(damping) {
+            let entries = matrix
+                .iter()
+                .enumerate()
+                .filter(|(_, entry)| **entry != 0.0);
+            for (place, entry) in entries {
+                real(place as f64);
+                real(*entry);
+            }
+            real(f64::NAN);
+        }
+        for output in outputs {
+            let Output {
+                displacement,
+                velocity,
+                acceleration,
+            } = output;
+            for row in [displacement, velocity, acceleration] {
+                for (index, coefficient) in row.terms() {
+                    real(*index as f64);
+                    real(*coefficient);
+                }
+                real(f64::NAN);
+            }
+        }
+        Sha256::digest(&bytes).into()
     }
 }
 

@@ -16,7 +16,7 @@ pub mod vertical;
 
 pub use eigen::{EigenError, Poles, diverge, eigenvalues};
 pub use eigenpairs::{Known, Pairs, Refiner, SETTLED};
-pub use forced::{Excitation, ForcedModel, Output};
+pub use forced::{Digest, Excitation, ForcedModel, Output};
 pub use lateral::LateralModel;
 pub use linear_system::{LinearSystem, Speed};
 pub use row::Row;

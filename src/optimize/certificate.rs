@@ -12,6 +12,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{
+    multipliers::Conditions,
     problem::{FEASIBLE, Point, Values},
     subproblem::{self, Step, lagrangian_hessian},
     surrogate::Surrogate,
@@ -64,72 +65,25 @@ impl Certificate {
     /// First-order conditions from the surrogates at a design. `None` if Clarabel fails.
     pub(super) fn new(surrogate: &Surrogate, values: &Values, x: &[f64]) -> Option<Self> {
         let n = x.len();
-        let objectives: Vec<usize> = surrogate.objectives.iter().map(Vec::len).collect();
-        let nf: usize = objectives.iter().sum();
-        let nc = surrogate.constraints.len();
-        let columns = nf + nc + 2 * n;
-        // Columns of G are the gradients and the outward normals of the bounds.
-        let mut g = DMatrix::zeros(n, columns);
-        let mut complementarity = vec![0.0; columns];
-        let gradients = surrogate.objectives.iter().flatten();
-        let gradients = gradients.chain(&surrogate.constraints);
-        for (k, piece) in gradients.enumerate() {
-            g.set_column(k, &piece.gradient);
-        }
-        let gaps = values.objectives.iter().flat_map(|pieces| {
-            let top = super::problem::largest(pieces);
-            pieces.iter().map(move |p| top - p.value)
-        });
-        let slacks = values.constraints.iter().map(|p| (-p.value).max(0.0));
-        for (k, gap) in gaps.chain(slacks).enumerate() {
-            complementarity[k] = gap;
-        }
-        for i in 0..n {
-            g[(i, nf + nc + i)] = -1.0;
-            complementarity[nf + nc + i] = x[i];
-            g[(i, nf + nc + n + i)] = 1.0;
-            complementarity[nf + nc + n + i] = 1.0 - x[i];
-        }
-        let groups = objectives.len();
-        let mut a = DMatrix::zeros(groups + columns, columns);
-        let mut b = vec![0.0; groups + columns];
-        let mut column = 0;
-        for (k, &count) in objectives.iter().enumerate() {
-            for i in column..column + count {
-                a[(k, i)] = 1.0;
-            }
-            b[k] = 1.0;
-            column += count;
-        }
-        for i in 0..columns {
-            a[(groups + i, i)] = -1.0;
-        }
-        let mut p = g.transpose() * &g;
-        for i in 0..columns {
-            // Of equal sums of gradients the smallest multipliers.
-            p[(i, i)] += 1e-12;
-        }
-        let (y, _) = subproblem::solve(&p, &complementarity, &a, &b, groups)?;
-        let y: Vec<f64> = y.into_iter().map(|v| v.max(0.0)).collect();
-        let stationarity = (&g * DVector::from_column_slice(&y)).amax();
-        let slackness = y
-            .iter()
-            .zip(&complementarity)
-            .map(|(y, c)| y * c)
-            .fold(0.0, f64::max);
-        let largest = y[nf..nf + nc].iter().copied().fold(0.0, f64::max);
+        let conditions = Conditions::new(surrogate, values, x);
+        let Conditions { groups, gaps, .. } = &conditions;
+        let pieces = groups.len();
+        let nf = groups.iter().flatten().count();
+        let y = conditions.multipliers()?;
+        let stationarity = conditions.gradient_sum(&y).amax();
+        let slackness = y.iter().zip(gaps).map(|(y, c)| y * c).fold(0.0, f64::max);
+        let largest = y[nf..pieces].iter().copied().fold(0.0, f64::max);
         let scale = (largest / LARGE).max(1.0);
         let mut multipliers = y[..nf].iter().copied();
         Some(Self {
             kkt_residual: stationarity.max(slackness) / scale,
-            objective_multipliers: objectives
+            objective_multipliers: surrogate
+                .objectives
                 .iter()
-                .map(|&count| multipliers.by_ref().take(count).collect())
+                .map(|own| multipliers.by_ref().take(own.len()).collect())
                 .collect(),
-            constraint_multipliers: y[nf..nf + nc].to_vec(),
-            bound_multipliers: (0..n)
-                .map(|i| y[nf + nc + n + i] - y[nf + nc + i])
-                .collect(),
+            constraint_multipliers: y[nf..pieces].to_vec(),
+            bound_multipliers: (0..n).map(|i| y[pieces + n + i] - y[pieces + i]).collect(),
             objective_gradients: surrogate
                 .objectives
                 .iter()

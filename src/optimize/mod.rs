@@ -15,6 +15,7 @@ mod evaluations;
 mod global;
 pub mod journal;
 pub mod local;
+mod multipliers;
 pub mod problem;
 mod secants;
 pub mod solve;

@@ -8,13 +8,14 @@
 //! Every design with a gradient is a secant condition, weighted by what it can be relied on: third
 //! derivatives make it wrong by the square of the distance, rounding by ν. In directions that no
 //! design shows, the least curvature is taken, as in [`super::surrogate`]. All conditions are kept
-//! at once, so that no order of updates matters.
+//! at once, so that no order of updates matters. The normal equations are the same for all pieces that
+//! are known at the same designs, and factorised once for these.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::{
     problem::{Piece, Point, Values},
-    surrogate::{Quadratic, Surrogate, displacement, follow_piece},
+    surrogate::{ByIndex, Quadratic, Surrogate, displacement},
 };
 
 /// ν: rounding of gradients, in scaled units.
@@ -40,50 +41,91 @@ impl Surrogate {
             .filter(|(_, values)| values.has_gradients())
             .take(PLENTY * n)
             .collect();
-        let of_piece = |pieces: &[Piece], k: usize, there: &[Option<&[Piece]>]| {
-            let gradient = DVector::from_column_slice(pieces[k].gradient.as_ref()?);
-            let mut secants = Secants::new(n);
-            for ((d, _), others) in known.iter().zip(there) {
-                let other = others.and_then(|others| follow_piece(pieces, k, others));
-                if let Some(other) = other.and_then(|piece| piece.gradient.as_ref()) {
-                    secants.add(d, &(DVector::from_column_slice(other) - &gradient));
-                }
-            }
-            Some(Quadratic {
-                value: pieces[k].value,
-                hessian: secants.hessian()?,
-                gradient,
-            })
+        let mut secants = Secants::new(known.iter().map(|(d, _)| d.clone()).collect(), n);
+        let mut of_pieces = |pieces: &[Piece], there: &[Option<&[Piece]>]| {
+            let here = ByIndex::new(pieces);
+            let there: Vec<Option<ByIndex>> = there.iter().map(|p| p.map(ByIndex::new)).collect();
+            let of_piece = |piece: &Piece| {
+                let gradient = DVector::from_column_slice(piece.gradient.as_ref()?);
+                let change = |others: &Option<ByIndex>| {
+                    let other = here.follow(piece, others.as_ref()?)?;
+                    let other = DVector::from_column_slice(other.gradient.as_ref()?);
+                    Some(other - &gradient)
+                };
+                let changes: Vec<Option<DVector<f64>>> = there.iter().map(change).collect();
+                Some(Quadratic {
+                    value: piece.value,
+                    hessian: secants.hessian(&changes)?,
+                    gradient,
+                })
+            };
+            pieces.iter().map(of_piece).collect::<Option<Vec<_>>>()
         };
         let mut objectives = Vec::new();
         for (group, pieces) in values.objectives.iter().enumerate() {
             let there = known
                 .iter()
                 .map(|(_, v)| v.objectives.get(group).map(Vec::as_slice));
-            let there: Vec<_> = there.collect();
-            let all = (0..pieces.len()).map(|k| of_piece(pieces, k, &there));
-            objectives.push(all.collect::<Option<Vec<_>>>()?);
+            objectives.push(of_pieces(pieces, &there.collect::<Vec<_>>())?);
         }
-        let pieces = &values.constraints;
         let there = known.iter().map(|(_, v)| Some(v.constraints.as_slice()));
-        let there: Vec<_> = there.collect();
-        let constraints = (0..pieces.len()).map(|k| of_piece(pieces, k, &there));
+        let constraints = of_pieces(&values.constraints, &there.collect::<Vec<_>>())?;
         Some(Self {
             objectives,
-            constraints: constraints.collect::<Option<Vec<_>>>()?,
+            constraints,
         })
     }
 }
 
-/// The least-squares problem for the curvatures of one piece.
+/// Factor of normal equations; `None` where they are singular.
+type Factor = Option<Cholesky<f64, Dyn>>;
+
+/// The least-squares problems for the curvatures of pieces that are known at some designs.
 struct Secants {
     n: usize,
-    normal: DMatrix<f64>,
-    right: DVector<f64>,
+    /// Displacements of the designs.
+    displacements: Vec<DVector<f64>>,
+    /// By the designs at which a piece is known.
+    factors: Vec<(Vec<bool>, Factor)>,
 }
 
 impl Secants {
-    fn new(n: usize) -> Self {
+    fn new(displacements: Vec<DVector<f64>>, n: usize) -> Self {
+        Self {
+            n,
+            displacements,
+            factors: Vec::new(),
+        }
+    }
+
+    /// H with H d = change at every design whose change is known.
+    fn hessian(&mut self, changes: &[Option<DVector<f64>>]) -> Option<DMatrix<f64>> {
+        let mut right = DVector::zeros(self.n * (self.n + 1) / 2);
+        for (d, change) in self.displacements.iter().zip(changes) {
+            let Some(change) = change else {
+                continue;
+            };
+            let weight = weight(d);
+            for i in 0..self.n {
+                for j in 0..self.n {
+                    right[position(i, j)] += weight * d[j] * change[i];
+                }
+            }
+        }
+        let at: Vec<bool> = changes.iter().map(Option::is_some).collect();
+        let known = self.factors.iter().position(|(known, _)| *known == at);
+        let known = known.unwrap_or_else(|| {
+            let normal = self.normal(&at);
+            self.factors.push((at, normal.cholesky()));
+            self.factors.len() - 1
+        });
+        let h = self.factors[known].1.as_ref()?.solve(&right);
+        Some(DMatrix::from_fn(self.n, self.n, |i, j| h[position(i, j)]))
+    }
+
+    /// The normal equations of a piece that is known at some designs.
+    fn normal(&self, at: &[bool]) -> DMatrix<f64> {
+        let n = self.n;
         let count = n * (n + 1) / 2;
         let mut normal = DMatrix::identity(count, count);
         for i in 0..n {
@@ -94,31 +136,24 @@ impl Secants {
                 normal[(at, at)] = times / (CURVATURE * CURVATURE);
             }
         }
-        Self {
-            n,
-            normal,
-            right: DVector::zeros(count),
-        }
-    }
-
-    /// H d = change.
-    fn add(&mut self, d: &DVector<f64>, change: &DVector<f64>) {
-        let weight = 1.0 / (NOISE + d.norm_squared()).powi(2);
-        for i in 0..self.n {
-            for j in 0..self.n {
-                let row = position(i, j);
-                self.right[row] += weight * d[j] * change[i];
-                for k in 0..self.n {
-                    self.normal[(row, position(i, k))] += weight * d[j] * d[k];
+        let designs = self.displacements.iter().zip(at).filter(|(_, at)| **at);
+        for (d, _) in designs {
+            let weight = weight(d);
+            for i in 0..n {
+                for j in 0..n {
+                    for k in 0..n {
+                        normal[(position(i, j), position(i, k))] += weight * d[j] * d[k];
+                    }
                 }
             }
         }
+        normal
     }
+}
 
-    fn hessian(self) -> Option<DMatrix<f64>> {
-        let h = self.normal.cholesky()?.solve(&self.right);
-        Some(DMatrix::from_fn(self.n, self.n, |i, j| h[position(i, j)]))
-    }
+/// 1/σ² of a design at a displacement.
+fn weight(d: &DVector<f64>) -> f64 {
+    1.0 / (NOISE + d.norm_squared()).powi(2)
 }
 
 /// Where the entry (i, j) of a symmetric matrix is kept.

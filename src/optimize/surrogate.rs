@@ -10,6 +10,8 @@
 //! least curvature where the data determine none, as in Powell's minimum-norm models (Conn,
 //! Scheinberg, Vicente: *Introduction to Derivative-Free Optimization*, 2009, section 5.3).
 
+use std::collections::HashMap;
+
 use nalgebra::{DMatrix, DVector, SVD};
 
 use super::problem::{Piece, Point, Values};
@@ -153,12 +155,10 @@ impl Surrogate {
             return None;
         }
         let all = Fit::new(known.iter().map(|(d, _)| d), n, radius)?;
-        let fit_piece = |pieces: &[Piece], k: usize, of: &dyn Fn(&Values) -> Vec<Piece>| {
-            let found: Vec<Option<f64>> = known
-                .iter()
-                .map(|(_, v)| follow(pieces, k, &of(v)))
-                .collect();
-            let value = pieces[k].value;
+        let fit_piece = |piece: &Piece, here: &ByIndex, there: &[ByIndex]| {
+            let found = there.iter().map(|other| here.follow(piece, other));
+            let found: Vec<Option<f64>> = found.map(|p| p.map(|p| p.value)).collect();
+            let value = piece.value;
             if found.iter().all(Option::is_some) {
                 return Some(all.solve(value, &found));
             }
@@ -181,19 +181,22 @@ impl Surrogate {
         };
         let mut objectives = Vec::new();
         for (group, pieces) in values.objectives.iter().enumerate() {
-            let of = |v: &Values| v.objectives.get(group).cloned().unwrap_or_default();
-            let fits = (0..pieces.len()).map(|k| fit_piece(pieces, k, &of));
+            let there = known.iter().map(|(_, v)| v.objectives.get(group));
+            let there: Vec<ByIndex> = there
+                .map(|pieces| ByIndex::new(pieces.map_or(&[], Vec::as_slice)))
+                .collect();
+            let here = ByIndex::new(pieces);
+            let fits = pieces.iter().map(|piece| fit_piece(piece, &here, &there));
             objectives.push(fits.collect::<Option<Vec<_>>>()?);
         }
-        let of = |v: &Values| v.constraints.clone();
-        let constraints = (0..values.constraints.len())
-            .map(|k| {
-                let piece = &values.constraints[k];
-                // A piece about to vanish that is far from its limit holds nothing back.
-                fit_piece(&values.constraints, k, &of)
-                    .or_else(|| (piece.value < -SAME).then(|| constant(piece.value)))
-            })
-            .collect::<Option<Vec<_>>>()?;
+        let there = known.iter().map(|(_, v)| ByIndex::new(&v.constraints));
+        let (here, there) = (ByIndex::new(&values.constraints), there.collect::<Vec<_>>());
+        let constraints = values.constraints.iter().map(|piece| {
+            // A piece about to vanish that is far from its limit holds nothing back.
+            fit_piece(piece, &here, &there)
+                .or_else(|| (piece.value < -SAME).then(|| constant(piece.value)))
+        });
+        let constraints = constraints.collect::<Option<Vec<_>>>()?;
         Some(Self {
             objectives,
             constraints,
@@ -223,36 +226,48 @@ pub(super) fn displacement(centre: &Point, point: &Point) -> DVector<f64> {
     DVector::from_fn(centre.x.len(), |i, _| point.x[i] - centre.x[i])
 }
 
-/// Value at another design of piece `k` of the centre: among those of the same index with a label
-/// near, the one with the same rank. Ranks are those of the labels where these keep further apart
-/// than they move (two modes whose values cross), otherwise those of the values (two modes that
-/// nearly coincide).
+/// Value at another design of piece `k` of the centre, see [`ByIndex::follow`].
 pub(crate) fn follow(centre: &[Piece], k: usize, other: &[Piece]) -> Option<f64> {
-    follow_piece(centre, k, other).map(|piece| piece.value)
+    let found = ByIndex::new(centre).follow(&centre[k], &ByIndex::new(other));
+    found.map(|piece| piece.value)
 }
 
-/// As [`follow`], the piece itself.
-pub(super) fn follow_piece<'p>(
-    centre: &[Piece],
-    k: usize,
-    other: &'p [Piece],
-) -> Option<&'p Piece> {
-    let piece = &centre[k];
-    let near = |p: &Piece| p.index == piece.index && (p.label - piece.label).abs() < SAME;
-    let mut own: Vec<&Piece> = centre.iter().filter(|p| near(p)).collect();
-    let mut others: Vec<&'p Piece> = other.iter().filter(|p| near(p)).collect();
-    own.sort_by(|a, b| a.label.total_cmp(&b.label));
-    others.sort_by(|a, b| a.label.total_cmp(&b.label));
-    let apart = own.windows(2).map(|w| w[1].label - w[0].label);
-    let apart = apart.fold(f64::INFINITY, f64::min);
-    let pairs = own.iter().zip(&others);
-    let moved = pairs.map(|(a, b)| (b.label - a.label).abs());
-    if own.len() != others.len() || moved.fold(0.0, f64::max) >= 0.5 * apart {
-        own.sort_by(|a, b| b.value.total_cmp(&a.value));
-        others.sort_by(|a, b| b.value.total_cmp(&a.value));
+/// Pieces by their index: what one of many has become elsewhere is found without a look at all.
+pub(super) struct ByIndex<'p>(HashMap<usize, Vec<&'p Piece>>);
+
+impl<'p> ByIndex<'p> {
+    /// Of the pieces of one objective, or of the constraints.
+    pub fn new(pieces: &'p [Piece]) -> Self {
+        let mut by_index: HashMap<usize, Vec<&'p Piece>> = HashMap::new();
+        for piece in pieces {
+            by_index.entry(piece.index).or_default().push(piece);
+        }
+        Self(by_index)
     }
-    let rank = own.iter().position(|p| std::ptr::eq(*p, piece))?;
-    others.get(rank).copied()
+
+    /// What a `piece`, one of these, is among the pieces of an `other` design: of those of the same
+    /// index with a label near, the one with the same rank. Ranks are those of the labels where these
+    /// keep further apart than they move (two modes whose values cross), otherwise those of the values
+    /// (two modes that nearly coincide).
+    pub fn follow<'q>(&self, piece: &Piece, other: &ByIndex<'q>) -> Option<&'q Piece> {
+        let near = |p: &&Piece| (p.label - piece.label).abs() < SAME;
+        let mut own: Vec<&Piece> = self.0.get(&piece.index).cloned().unwrap_or_default();
+        own.retain(near);
+        let mut others: Vec<&'q Piece> = other.0.get(&piece.index).cloned().unwrap_or_default();
+        others.retain(near);
+        own.sort_by(|a, b| a.label.total_cmp(&b.label));
+        others.sort_by(|a, b| a.label.total_cmp(&b.label));
+        let apart = own.windows(2).map(|w| w[1].label - w[0].label);
+        let apart = apart.fold(f64::INFINITY, f64::min);
+        let pairs = own.iter().zip(&others);
+        let moved = pairs.map(|(a, b)| (b.label - a.label).abs());
+        if own.len() != others.len() || moved.fold(0.0, f64::max) >= 0.5 * apart {
+            own.sort_by(|a, b| b.value.total_cmp(&a.value));
+            others.sort_by(|a, b| b.value.total_cmp(&a.value));
+        }
+        let rank = own.iter().position(|p| std::ptr::eq(*p, piece))?;
+        others.get(rank).copied()
+    }
 }
 
 /// The weighted least-squares problem for one set of designs, factorised once for all pieces.

@@ -2,6 +2,7 @@
 
 mod curving;
 mod ride;
+mod shared;
 mod stability;
 mod statics;
 
@@ -21,6 +22,7 @@ use crate::{
     track::MAX_DEGREE,
 };
 use curving::{Curves, not_covered};
+pub use shared::Shared;
 
 /// Something to measure.
 #[derive(Debug, Clone, Copy, PartialEq)]

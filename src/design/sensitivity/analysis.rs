@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     case::Case,
-    design::measure::{Wanted, absence, is_only_bounded, measure_each},
+    design::measure::{Shared, Wanted, absence, is_only_bounded},
     index::{Index, Scale},
     optimize::problem::{Failure, Piece},
     spec::{DesignSpace, Spec},
@@ -103,7 +103,12 @@ pub struct IndexSensitivity {
 impl Sensitivity {
     /// Sensitivity of indices to factors.
     pub fn new(factors: &Factors, indices: &[Index], settings: Settings, watch: &Watch) -> Self {
-        let function = |x: &[f64]| outcomes(&factors.case(x), indices);
+        let wanted: Vec<Wanted> = indices.iter().map(|index| Wanted::Index(*index)).collect();
+        let shared = Shared::new(factors.base(), &wanted);
+        let function = |x: &[f64]| {
+            let case = factors.case(x);
+            outcomes(&case, indices, shared.measure_each(&case))
+        };
         let (n, outputs, seed) = (factors.list().len(), indices.len(), settings.seed);
         watch.progress.stage("sensitivity");
         watch.progress.expected(settings.method.evaluations(n));
@@ -198,10 +203,12 @@ pub fn screen(design: &Case, indices: &[Index], seed: u64, watch: &Watch) -> Sen
     Sensitivity::new(&factors, indices, Settings { method, seed }, watch)
 }
 
-/// Indices of a case, on the scale on which they are compared.
-fn outcomes(case: &Case, indices: &[Index]) -> Vec<Outcome> {
-    let wanted: Vec<Wanted> = indices.iter().map(|index| Wanted::Index(*index)).collect();
-    let measured = measure_each(case, &wanted);
+/// Indices of a case, on the scale on which they are compared, from what was measured of them.
+fn outcomes(
+    case: &Case,
+    indices: &[Index],
+    measured: Vec<Result<Vec<Piece>, Failure>>,
+) -> Vec<Outcome> {
     let pairs = measured.into_iter().zip(indices);
     pairs
         .map(|(pieces, index)| compared(case, *index, &pieces?))
@@ -266,7 +273,12 @@ mod tests {
             Index::CriticalSpeed,
             Index::VerticalAcceleration,
         ];
-        let found = outcomes(&case, &indices);
+        let wanted = indices.map(Wanted::Index);
+        let found = outcomes(
+            &case,
+            &indices,
+            Shared::new(&case, &wanted).measure_each(&case),
+        );
         assert_eq!(found[0], Err(Failure::Unstable));
         assert!(found[1].is_ok() && found[2].is_ok());
     }

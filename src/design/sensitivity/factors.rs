@@ -193,6 +193,11 @@ impl Factors {
         &self.list
     }
 
+    /// The case from which inputs spread.
+    pub fn base(&self) -> &Case {
+        &self.base
+    }
+
     /// Relative spread of the inputs.
     pub fn spread(&self) -> f64 {
         self.spread

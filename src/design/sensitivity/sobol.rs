@@ -106,9 +106,12 @@ where
     let pairs: Vec<(usize, usize)> = (0..outputs)
         .flat_map(|output| (0..factors).map(move |factor| (output, factor)))
         .collect();
+    let rows = pairs
+        .iter()
+        .map(|(output, factor)| rows(&groups, *output, *factor));
+    let rows: Vec<Vec<(usize, Row)>> = rows.collect();
     let estimates = |counts: &[u32]| -> Vec<Option<[f64; 2]>> {
-        let of = |(output, factor): &(usize, usize)| indices(&groups, counts, *output, *factor);
-        pairs.iter().map(of).collect()
+        rows.iter().map(|rows| indices(rows, counts)).collect()
     };
     let found = estimates(&vec![1; groups.len()]);
     let resampled: Vec<Vec<Option<[f64; 2]>>> = (0..RESAMPLES)
@@ -124,14 +127,10 @@ where
                 interval: middle(resampled.collect(), values[i]),
             }
         };
-        let (output, factor) = pairs[pair];
-        let rows = groups
-            .iter()
-            .filter_map(|group| Row::new(group, output, factor));
         Some(Effect {
             first: estimate(0),
             total: estimate(1),
-            rows: rows.count(),
+            rows: rows[pair].len(),
         })
     };
     let output = |output: usize| {
@@ -167,6 +166,14 @@ impl Row {
     }
 }
 
+/// Rows that have values for an output and a factor, with their numbers.
+fn rows(groups: &[Group], output: usize, factor: usize) -> Vec<(usize, Row)> {
+    let numbered = groups.iter().enumerate();
+    numbered
+        .filter_map(|(i, group)| Some((i, Row::new(group, output, factor)?)))
+        .collect()
+}
+
 /// S_i and S_Ti from rows that count as often as said (Saltelli et al. 2010, Table 2, b and f; the
 /// second is Jansen's of 1999):
 ///
@@ -176,13 +183,8 @@ impl Row {
 ///
 /// V is the variance of f(A) and f(B) together; f(B) is taken less the mean. Jansen's own form of
 /// S_i scatters much more where S_i is small. `None` for fewer than two rows.
-fn indices(groups: &[Group], counts: &[u32], output: usize, factor: usize) -> Option<[f64; 2]> {
-    let rows = || {
-        let pairs = groups.iter().zip(counts);
-        pairs.filter_map(|(group, count)| {
-            Some((Row::new(group, output, factor)?, f64::from(*count)))
-        })
-    };
+fn indices(rows: &[(usize, Row)], counts: &[u32]) -> Option<[f64; 2]> {
+    let rows = || rows.iter().map(|(row, r)| (r, f64::from(counts[*row])));
     let (mut n, mut sum) = (0.0, 0.0);
     for (r, w) in rows() {
         n += w;
@@ -234,10 +236,8 @@ mod tests {
     #[test]
     fn a_constant_has_no_sensitivity() {
         let group = vec![vec![Ok(3.0)]; 3];
-        assert_eq!(
-            indices(&vec![group.clone(); 5], &[1; 5], 0, 0),
-            Some([0.0; 2])
-        );
-        assert_eq!(indices(&[group], &[1], 0, 0), None);
+        let five = vec![group.clone(); 5];
+        assert_eq!(indices(&rows(&five, 0, 0), &[1; 5]), Some([0.0; 2]));
+        assert_eq!(indices(&rows(&[group], 0, 0), &[1]), None);
     }
 }

@@ -31,6 +31,11 @@ impl Study {
         Some(study)
     }
 
+    /// Whether the index of a term is the lifted speed.
+    pub fn is_lifted_term(&self, term: usize) -> bool {
+        self.is_lifted && self.terms[term].is_speed_objective()
+    }
+
     /// The study without the epigraph variable of [`Study::lifted`].
     #[must_use]
     pub fn grounded(&self) -> Self {

@@ -1,16 +1,99 @@
 //! A study in the terms of the optimiser.
 
+use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
 use super::{
     AMPLE, PIECES, SPEED, Study,
     chain::Chain,
-    term::{DAMPING, Role, Term},
+    term::{DAMPING, Role},
 };
 use crate::{
+    case::Case,
     design::measure::{Wanted, measure, measure_graded},
     optimize::problem::{Detail, FEASIBLE, Failure, Key, Piece, Problem, Values, Variable},
 };
+
+/// Conditions that are measured side by side.
+const SIDE_BY_SIDE: usize = 16;
+
+impl Study {
+    /// Conditions in which the study asks for something, each with the numbers of its terms.
+    fn by_condition(&self) -> Vec<(usize, Vec<usize>)> {
+        let mut terms: Vec<Vec<usize>> = vec![Vec::new(); self.conditions.len()];
+        for (i, term) in self.terms.iter().enumerate() {
+            terms[term.condition].push(i);
+        }
+        let numbered = terms.into_iter().enumerate();
+        numbered.filter(|(_, terms)| !terms.is_empty()).collect()
+    }
+
+    /// Numbers of the conditions in which the study asks for something.
+    pub fn conditions_asked(&self) -> Vec<usize> {
+        let asked = self.by_condition();
+        asked.into_iter().map(|(condition, _)| condition).collect()
+    }
+
+    /// Numbers of the conditions in which the design at scaled coordinates `x` has no result.
+    pub fn failing(&self, x: &[f64]) -> Vec<usize> {
+        let case = self.design(x);
+        let conditions = self.by_condition();
+        let fails = |(condition, terms): &(usize, Vec<usize>)| {
+            let measured = self.measure_in(*condition, terms, &case, x, Detail::Values);
+            measured.err().map(|_| *condition)
+        };
+        conditions.par_iter().filter_map(fails).collect()
+    }
+
+    /// Pieces of some terms, all of one condition, for the design `case` at scaled coordinates `x`.
+    fn measure_in(
+        &self,
+        condition: usize,
+        terms: &[usize],
+        case: &Case,
+        x: &[f64],
+        detail: Detail,
+    ) -> Result<Vec<Piece>, Failure> {
+        let wanted: Vec<Wanted> = terms
+            .iter()
+            .map(|i| match (self.speed(x), &self.terms[*i]) {
+                (Some(speed), term) if term.is_speed_objective() => Wanted::DampingTo {
+                    speed,
+                    below: AMPLE,
+                },
+                (_, term) => term.wanted,
+            })
+            .collect();
+        let case = self.in_condition(case, condition);
+        let chain = match detail {
+            Detail::Values => None,
+            Detail::Gradients => Chain::new(self, x, condition),
+        };
+        let all = match &chain {
+            None => measure(&case, &wanted)?,
+            Some(chain) => measure_graded(&case, &wanted, &chain.constants)?,
+        };
+        let mut measured = Vec::new();
+        for (i, pieces) in terms.iter().zip(all) {
+            let is_lifted = self.is_lifted && self.terms[*i].is_speed_objective();
+            measured.extend(pieces.into_iter().map(|p| {
+                let gradient = p.gradient.as_ref().zip(chain.as_ref());
+                Piece {
+                    index: i * PIECES + p.index,
+                    gradient: gradient.map(|(over, chain)| chain.gradient(over, is_lifted)),
+                    ..p
+                }
+            }));
+            if let Some(speed) = self.speed(x).filter(|_| is_lifted) {
+                measured.push(Piece {
+                    gradient: chain.as_ref().map(Chain::of_speed),
+                    ..Piece::single(i * PIECES + SPEED, speed)
+                });
+            }
+        }
+        Ok(measured)
+    }
+}
 
 impl Problem for Study {
     fn variables(&self) -> &[Variable] {
@@ -51,51 +134,17 @@ impl Problem for Study {
         true
     }
 
+    /// Conditions are measured side by side, [`SIDE_BY_SIDE`] at a time; none further once one fails.
     fn measure(&self, x: &[f64], detail: Detail) -> Result<Vec<Piece>, Failure> {
         let case = self.design(x);
         let mut measured = Vec::new();
-        for condition in 0..self.conditions.len() {
-            let numbered = self.terms.iter().enumerate();
-            let here: Vec<(usize, &Term)> =
-                numbered.filter(|(_, t)| t.condition == condition).collect();
-            if here.is_empty() {
-                continue;
-            }
-            let wanted: Vec<Wanted> = here
-                .iter()
-                .map(|(_, t)| match self.speed(x) {
-                    Some(speed) if t.is_speed_objective() => Wanted::DampingTo {
-                        speed,
-                        below: AMPLE,
-                    },
-                    _ => t.wanted,
-                })
+        for conditions in self.by_condition().chunks(SIDE_BY_SIDE) {
+            let all: Vec<Result<Vec<Piece>, Failure>> = conditions
+                .par_iter()
+                .map(|(condition, terms)| self.measure_in(*condition, terms, &case, x, detail))
                 .collect();
-            let case = self.in_condition(&case, condition);
-            let chain = match detail {
-                Detail::Values => None,
-                Detail::Gradients => Chain::new(self, x, condition),
-            };
-            let all = match &chain {
-                None => measure(&case, &wanted)?,
-                Some(chain) => measure_graded(&case, &wanted, &chain.constants)?,
-            };
-            for ((i, _), pieces) in here.iter().zip(all) {
-                let is_lifted = self.is_lifted && self.terms[*i].is_speed_objective();
-                measured.extend(pieces.into_iter().map(|p| {
-                    let gradient = p.gradient.as_ref().zip(chain.as_ref());
-                    Piece {
-                        index: i * PIECES + p.index,
-                        gradient: gradient.map(|(over, chain)| chain.gradient(over, is_lifted)),
-                        ..p
-                    }
-                }));
-                if let Some(speed) = self.speed(x).filter(|_| is_lifted) {
-                    measured.push(Piece {
-                        gradient: chain.as_ref().map(Chain::of_speed),
-                        ..Piece::single(i * PIECES + SPEED, speed)
-                    });
-                }
+            for pieces in all {
+                measured.extend(pieces?);
             }
         }
         Ok(measured)
