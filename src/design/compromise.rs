@@ -192,7 +192,7 @@ fn best_of_relaxed(
     x: Vec<f64>,
     archive: &Archive,
 ) -> Result<Lifted, NoDesign> {
-    let start = start.clone().with(vec![x.clone()]);
+    let start = start.clone().plainly().with(vec![x.clone()]);
     let found = solve_lifted(relaxed, &start, archive)?;
     let values = relaxed.evaluate(&x);
     if found.solved.point.feasible() || !values.as_ref().is_ok_and(Values::feasible) {

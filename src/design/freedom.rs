@@ -9,6 +9,8 @@
 //! a = 3 w p |ζ| for damping ratios. A sum of several may get worse by p itself, as it is a sum of relative
 //! changes. Trade-offs in turn are a goal each; all at once is one.
 
+use rayon::prelude::*;
+
 use super::{
     explain::{Objective, objective_of},
     recovery::with_values,
@@ -211,13 +213,14 @@ impl Neighbourhood {
             goals: &goals,
             archive,
         };
-        let mut ends: Vec<[Option<Reached>; 2]> = Vec::new();
-        for i in 0..self.study.parameters().len() {
-            let (Ok(lower), Ok(upper)) = (self.end(&near, i, 0.0), self.end(&near, i, 1.0)) else {
-                break;
-            };
-            ends.push([lower, upper]);
-        }
+        let both = |i: usize| Ok([self.end(&near, i, 0.0)?, self.end(&near, i, 1.0)?]);
+        let all = 0..self.study.parameters().len();
+        let ends: Vec<Result<[Option<Reached>; 2], Stop>> = if archive.has_budget() {
+            all.map(both).collect()
+        } else {
+            all.into_par_iter().map(both).collect()
+        };
+        let ends: Vec<[Option<Reached>; 2]> = ends.into_iter().map_while(Result::ok).collect();
         let known: Vec<Vec<f64>> = known
             .iter()
             .map(|case| self.study.coordinates(case))

@@ -3,7 +3,7 @@
 use super::study::Study;
 use crate::optimize::{
     archive::Archive,
-    local::{Status, WIDE},
+    local::WIDE,
     problem::Values,
     solve::{NoDesign, Solved, Start, solve},
 };
@@ -60,14 +60,8 @@ pub fn solve_lifted(study: &Study, start: &Start, archive: &Archive) -> Result<L
     if !better.point.feasible() || (solved.point.feasible() && worse) {
         return Ok(plain(solved));
     }
-    let first = solved.effort;
-    better.effort.add(&first);
-    better.effort.starts = first.starts;
-    better.effort.agreed = first.agreed;
-    better.coverage = solved.coverage;
-    if better.status == Status::Optimal && solved.coverage.is_some_and(|c| !c.is_enough()) {
-        better.status = Status::BestFound;
-    }
+    better.effort.add(&solved.effort);
+    better.followed_from(&solved);
     Ok(Lifted {
         study: lifted,
         solved: better,

@@ -154,7 +154,7 @@ impl Procedure<'_> {
         let compare = !joint_only && (open.len() > 1 || short) && self.archive.stopped().is_none();
         if compare && short {
             // In turn something is missed: all at once may meet it.
-            chosen.joint = self.joint(&chosen.case, given);
+            chosen.joint = self.joint(&chosen.case, given, self.start());
             if let Some((joint, _)) = &chosen.joint {
                 let all_at_once = self.standing(&joint.case, [&joint.stage]);
                 if all_at_once.is_better_than(&standing) {
@@ -182,7 +182,8 @@ impl Procedure<'_> {
         );
         let ((joint, free), made) = rayon::join(
             || {
-                let joint = (compare && !short).then(|| self.joint(optimum, given));
+                let joint =
+                    (compare && !short).then(|| self.joint(optimum, given, self.start().plainly()));
                 let free = self.ranges(around.as_ref(), nearby);
                 (joint.flatten(), free)
             },
@@ -303,9 +304,9 @@ impl Procedure<'_> {
         }
         let mut rounds = 0;
         let mut settled = coupled.is_empty();
-        // The first round looks everywhere and the next follow the designs found; the last looks
-        // everywhere again, as what holds then is not what held at first.
-        let mut everywhere = true;
+        // Rounds follow the designs found until nothing changes; then one looks everywhere, with what
+        // holds then.
+        let mut everywhere = coupled.len() < 2;
         while !settled && rounds < ROUNDS && self.archive.stopped().is_none() {
             let mut moved: f64 = 0.0;
             for trade_off in &coupled {
@@ -325,11 +326,7 @@ impl Procedure<'_> {
                 now = stage.case.clone();
                 match at {
                     Some(i) => {
-                        stage
-                            .result
-                            .explained
-                            .effort
-                            .add(&stages[i].result.explained.effort);
+                        stage.result.absorb(&stages[i].result);
                         stages[i] = stage;
                     }
                     None => stages.push(stage),
@@ -338,7 +335,8 @@ impl Procedure<'_> {
             rounds += 1;
             let unchanged = moved < UNCHANGED || coupled.len() < 2;
             settled = unchanged && everywhere;
-            everywhere = unchanged;
+            // Not followed for ever: the last round looks everywhere.
+            everywhere = unchanged || rounds + 1 == ROUNDS;
         }
         Chosen {
             case: now,
@@ -373,7 +371,7 @@ impl Procedure<'_> {
 
     /// All at once, from the sequential design, the one as given, and from everywhere. `None` if the
     /// run ended before.
-    fn joint(&self, sequential: &Case, given: &Case) -> Option<(Joint, Searched)> {
+    fn joint(&self, sequential: &Case, given: &Case, start: Start) -> Option<(Joint, Searched)> {
         self.archive.stage("all at once");
         let stage = self
             .stage(&StageInput {
@@ -381,7 +379,7 @@ impl Procedure<'_> {
                 trade_off: None,
                 known: None,
                 also: &[sequential.clone(), given.clone()],
-                start: self.start(),
+                start,
             })
             .ok()?;
         // In the terms of the task, whether or not the solution is lifted.

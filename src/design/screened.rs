@@ -98,10 +98,7 @@ pub(super) fn screened(
             Err(stop) => return ended(Some(found), stop),
         };
         if joining.is_empty() {
-            let own = &mut found.solved.effort;
-            let (starts, agreed) = (own.starts, own.agreed);
-            own.add(&effort);
-            (own.starts, own.agreed) = (starts, agreed);
+            found.solved.effort.add(&effort);
             let near = Start {
                 everywhere: None,
                 designs: vec![x],
@@ -137,12 +134,10 @@ impl Settled {
     ///
     /// [`NoDesign`] if that search could evaluate no design.
     pub fn finish(self, whole: Result<Searched, NoDesign>) -> Result<Searched, NoDesign> {
-        let rounds = &self.found.solved.effort;
         match whole {
             Ok(mut whole) => {
-                let own = &mut whole.solved.effort;
-                own.add(rounds);
-                (own.starts, own.agreed) = (rounds.starts, rounds.agreed);
+                whole.solved.effort.add(&self.found.solved.effort);
+                whole.solved.followed_from(&self.found.solved);
                 Ok(whole)
             }
             Err(NoDesign::Stopped(stop)) => {

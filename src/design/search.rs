@@ -35,6 +35,11 @@ impl Searched {
         missed.map(Missed::violation).fold(0.0, f64::max)
     }
 
+    /// Adds the second-order condition.
+    pub fn add_curvature(&mut self, archive: &Archive) {
+        self.solved = self.solved.clone().with_curvature(&self.study, archive);
+    }
+
     /// Whether a demand counts as not met.
     pub fn misses(&self) -> bool {
         self.missed.iter().any(|missed| !missed.met())

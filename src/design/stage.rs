@@ -1,5 +1,7 @@
 //! One stage of the procedure: a task solved for every profile to choose from.
 
+use rayon::prelude::*;
+
 use super::{
     explain::Explained,
     outcome::{Profile, StageResult},
@@ -59,7 +61,8 @@ pub struct StageInput<'a> {
 impl StageInput<'_> {
     fn choices(&self, tasks: &Tasks) -> Vec<f64> {
         let chooses = matches!(self.trade_off, None | Some(TradeOff::StabilityCurving));
-        if chooses {
+        let is_followed = self.known.is_some() && self.start.everywhere.is_none();
+        if chooses && !is_followed {
             tasks.profiles(self.now)
         } else {
             vec![self.now.wheel_rail.conicity]
@@ -93,8 +96,10 @@ impl StageInput<'_> {
         let designs = std::iter::once(first).chain(self.also);
         let designs = designs.map(|case| study.coordinates(case)).collect();
         let start = match own {
-            // Everywhere was looked for what comes nearest to the demands.
-            Some(own) if own.status == Status::Infeasible => Start::near(designs),
+            // Everywhere was looked before for what comes nearest to the demands.
+            Some(own) if own.status == Status::Infeasible && own.coverage.is_some() => {
+                Start::near(designs)
+            }
             _ => self.start.clone().with(designs),
         };
         (study, start, parameters)
@@ -111,29 +116,20 @@ pub fn solve(input: &StageInput, tasks: &Tasks, archive: &Archive) -> Result<Sta
     let mut best: Option<Candidate> = None;
     let mut profiles = Vec::new();
     let mut effort = Effort::default();
-    for conicity in input.choices(tasks) {
-        let (study, start, unused) = input.begin(tasks, conicity, archive);
-        let searched = match search(&study, &start, archive) {
-            Ok(searched) => searched,
-            Err(NoDesign::Failed(reason)) => at_hand(study, input.now, reason),
-            Err(NoDesign::Stopped(stop)) if best.is_none() => return Err(stop),
-            Err(NoDesign::Stopped(_)) => break,
-        };
-        let candidate = Candidate {
-            searched,
-            unused,
-            conicity,
+    for candidate in candidates(input, tasks, archive) {
+        let candidate = match candidate {
+            Ok(candidate) => candidate,
+            Err(stop) if best.is_none() => return Err(stop),
+            Err(_) => break,
         };
         profiles.push(profile(&candidate));
         effort.add(&candidate.searched.solved.effort);
         if best.as_ref().is_none_or(|best| candidate.is_better(best)) {
             best = Some(candidate);
         }
-        if archive.stopped().is_some() {
-            break;
-        }
     }
-    let best = best.ok_or(archive.stopped().unwrap_or(Stop::Interrupted))?;
+    let mut best = best.ok_or(archive.stopped().unwrap_or(Stop::Interrupted))?;
+    best.searched.add_curvature(archive);
     let Searched { study, solved, .. } = &best.searched;
     let before = study.coordinates(input.now);
     let changes = solved.point.x.iter().zip(&before);
@@ -163,6 +159,43 @@ pub fn solve(input: &StageInput, tasks: &Tasks, archive: &Archive) -> Result<Sta
         moved,
         best,
     })
+}
+
+/// What is found for every profile; a run that has ended does not begin with another.
+fn candidates(
+    input: &StageInput,
+    tasks: &Tasks,
+    archive: &Archive,
+) -> Vec<Result<Candidate, Stop>> {
+    let find = |conicity: f64, archive: &Archive| {
+        let (study, start, unused) = input.begin(tasks, conicity, archive);
+        let searched = match search(&study, &start, archive) {
+            Ok(searched) => searched,
+            Err(NoDesign::Failed(reason)) => at_hand(study, input.now, reason),
+            Err(NoDesign::Stopped(stop)) => return Err(stop),
+        };
+        Ok(Candidate {
+            searched,
+            unused,
+            conicity,
+        })
+    };
+    let choices = input.choices(tasks);
+    if !archive.has_budget() {
+        let choices = choices.into_par_iter();
+        return choices
+            .map(|conicity| find(conicity, &archive.branch()))
+            .collect();
+    }
+    // The order of evaluation decides which designs the budget still allows.
+    let mut found = Vec::new();
+    for conicity in choices {
+        found.push(find(conicity, archive));
+        if archive.stopped().is_some() {
+            break;
+        }
+    }
+    found
 }
 
 /// The design at hand as the answer to a study that no design has a performance in.
@@ -234,5 +267,20 @@ fn profile(candidate: &Candidate) -> Profile {
         bending_stiffness: case.vehicle.bending_stiffness(),
         lateral_stiffness: case.vehicle.suspension.primary.lateral_stiffness,
         case,
+    }
+}
+
+impl StageResult {
+    /// Adds what an earlier round spent, and profiles that it alone has looked at.
+    pub(super) fn absorb(&mut self, earlier: &Self) {
+        self.explained.effort.add(&earlier.explained.effort);
+        for profile in &earlier.profiles {
+            let mut own = self.profiles.iter();
+            if !own.any(|p| same(p.conicity, profile.conicity)) {
+                self.profiles.push(profile.clone());
+            }
+        }
+        self.profiles
+            .sort_by(|a, b| a.conicity.total_cmp(&b.conicity));
     }
 }

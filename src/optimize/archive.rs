@@ -7,7 +7,7 @@
 use std::{
     collections::{BTreeMap, HashMap},
     sync::{
-        Mutex, MutexGuard,
+        Arc, Mutex, MutexGuard,
         atomic::{AtomicBool, Ordering},
     },
 };
@@ -71,7 +71,39 @@ pub struct Archive<'a> {
     budget: usize,
     interrupt: Option<&'a AtomicBool>,
     progress: &'a dyn Progress,
-    kept: Mutex<Kept>,
+    kept: Arc<Mutex<Kept>>,
+    own: Mutex<Spent>,
+}
+
+/// Evaluations that were asked for through one handle of an archive.
+#[derive(Debug, Clone, Default)]
+pub struct Spent {
+    /// How many.
+    pub evaluations: usize,
+    /// Of which without a result, by reason.
+    pub failures: BTreeMap<Failure, usize>,
+}
+
+impl Spent {
+    /// What came after `before`.
+    #[must_use]
+    pub fn since(mut self, before: &Self) -> Self {
+        self.evaluations -= before.evaluations;
+        for (failure, count) in &before.failures {
+            self.failures
+                .entry(*failure)
+                .and_modify(|all| *all -= count);
+        }
+        self.failures.retain(|_, count| *count > 0);
+        self
+    }
+
+    fn add(&mut self, measured: &Measured) {
+        self.evaluations += 1;
+        if let Err(failure) = measured {
+            *self.failures.entry(*failure).or_default() += 1;
+        }
+    }
 }
 
 #[derive(Default)]
@@ -81,10 +113,9 @@ struct Kept {
     recorded: HashMap<Bits, Measured>,
     journal: Option<Journal>,
     /// Measurements asked for in this run, those from the journal included.
-    count: usize,
+    spent: Spent,
     /// Evaluations expected in all.
     expected: usize,
-    failures: BTreeMap<Failure, usize>,
     stopped: Option<Stop>,
     /// The journal could not be written; the run goes on without it.
     journal_error: Option<String>,
@@ -110,8 +141,23 @@ impl<'a> Archive<'a> {
             budget: usize::MAX,
             interrupt: None,
             progress,
-            kept: Mutex::default(),
+            kept: Arc::default(),
+            own: Mutex::default(),
         }
+    }
+
+    /// The same archive with an account of its own, for one of several searches side by side.
+    pub fn branch(&self) -> Self {
+        Self {
+            kept: Arc::clone(&self.kept),
+            own: Mutex::default(),
+            ..*self
+        }
+    }
+
+    /// What was asked for through this handle.
+    pub fn spent(&self) -> Spent {
+        locked(&self.own).clone()
     }
 
     /// Allows at most `budget` evaluations in all.
@@ -174,7 +220,7 @@ impl<'a> Archive<'a> {
                 if kept.known.contains_key(key) || new.iter().any(|(j, _)| bits[*j] == *key) {
                     continue;
                 }
-                if kept.count + new.len() == self.budget {
+                if kept.spent.evaluations + new.len() == self.budget {
                     over_budget = true;
                     break;
                 }
@@ -205,10 +251,8 @@ impl<'a> Archive<'a> {
             if kept.known.contains_key(&bits[i]) {
                 continue;
             }
-            kept.count += 1;
-            if let Err(failure) = measured {
-                *kept.failures.entry(failure).or_default() += 1;
-            }
+            kept.spent.add(&measured);
+            locked(&self.own).add(&measured);
             if fresh {
                 kept.record(&keys[i], &measured);
             }
@@ -247,22 +291,12 @@ impl<'a> Archive<'a> {
 
     /// Evaluations so far.
     pub fn count(&self) -> usize {
-        self.lock().count
+        self.lock().spent.evaluations
     }
 
     /// Failures so far by kind.
     pub fn failures(&self) -> BTreeMap<Failure, usize> {
-        self.lock().failures.clone()
-    }
-
-    /// Failures since there were as many as `before`, by kind.
-    pub fn failures_since(&self, before: &BTreeMap<Failure, usize>) -> BTreeMap<Failure, usize> {
-        let mut since = self.failures();
-        for (failure, count) in before {
-            since.entry(*failure).and_modify(|all| *all -= count);
-        }
-        since.retain(|_, count| *count > 0);
-        since
+        self.lock().spent.failures.clone()
     }
 
     /// Why the run was ended, if it was.
@@ -278,7 +312,7 @@ impl<'a> Archive<'a> {
     /// Announces work of about so many evaluations.
     pub fn announce(&self, evaluations: usize) {
         let mut kept = self.lock();
-        kept.expected = kept.expected.max(kept.count) + evaluations;
+        kept.expected = kept.expected.max(kept.spent.evaluations) + evaluations;
         self.progress.expected(kept.expected);
     }
 
@@ -287,7 +321,7 @@ impl<'a> Archive<'a> {
         let mut kept = self.lock();
         kept.expected = (kept.expected + taken)
             .saturating_sub(evaluations)
-            .max(kept.count);
+            .max(kept.spent.evaluations);
         self.progress.expected(kept.expected);
     }
 
@@ -302,11 +336,15 @@ impl<'a> Archive<'a> {
     }
 
     fn lock(&self) -> MutexGuard<'_, Kept> {
-        // Nothing panics while it holds the lock.
-        self.kept
-            .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner)
+        locked(&self.kept)
     }
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // Nothing panics while it holds a lock.
+    mutex
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
 /// The key of a measurement with gradients.

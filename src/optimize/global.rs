@@ -39,7 +39,9 @@ const MANY: f64 = 14.0;
 /// Uniform points drawn per variable before the first that can be evaluated, and for every later
 /// one.
 const DRAWS: usize = 40;
-/// Designs per variable of an even covering, where no feasible design is known.
+/// Where the least violation is greater than this, a demand is missed by more than the factor e.
+const NEAR: f64 = 1.0;
+/// Designs per variable of an even covering then.
 const COVERING: usize = 16;
 /// Price of a violation by which its designs are ranked, and their distance in at least one variable.
 const START_PENALTY: f64 = 4.0;
@@ -219,12 +221,13 @@ impl<'a> Multistart<'a> {
         Ok(())
     }
 
-    /// Where no feasible design is known, covers the box evenly and takes the best designs there to
-    /// search from: feasible ones may be few, and the way to them too steep from elsewhere. Whether
-    /// there are any; it is done once.
+    /// Where no design is known that comes near to the demands, covers the box evenly and takes the
+    /// best designs there to search from: the way to feasible ones may be too steep from elsewhere.
+    /// Whether there are any; it is done once.
     fn cover(&mut self, evaluations: &Evaluations) -> Result<bool, Stop> {
-        let is_feasible = self.met.as_ref().is_some_and(Point::feasible);
-        if is_feasible || self.is_covered || self.everywhere.is_none() {
+        let least = self.met.as_ref().and_then(|met| met.values.as_ref().ok());
+        let is_near = least.is_some_and(|values| values.violation() < NEAR);
+        if is_near || self.is_covered || self.everywhere.is_none() {
             return Ok(false);
         }
         self.is_covered = true;
@@ -240,7 +243,8 @@ impl<'a> Multistart<'a> {
     /// Puts every variable of the best design to the ends of its range that are far away. Whether
     /// there is any such design from which that was not done before.
     fn turn(&mut self) -> bool {
-        let Some(best) = self.basins.best().filter(|_| self.everywhere.is_some()) else {
+        let turns = self.everywhere.is_some_and(|everywhere| everywhere.turns);
+        let Some(best) = self.basins.best().filter(|_| turns) else {
             return false;
         };
         let x = best.point.x.clone();

@@ -98,7 +98,7 @@ const NEGLIGIBLE: f64 = 1e-3;
 /// in its neighbourhood, behind it by no more than this, and no better.
 const ARRIVED: f64 = 5e-3;
 const NEIGHBOUR: f64 = 0.1;
-const LEVEL: f64 = 3e-3;
+const LEVEL: f64 = 1e-2;
 const NO_BETTER: f64 = 2e-5;
 /// Up to this many variables the first designs determine all curvatures.
 const FEW: usize = 3;
@@ -159,26 +159,28 @@ pub(super) fn search(
     }
 }
 
-/// Second-order condition of a design found, from fresh evaluations around it.
-pub(super) fn with_curvature(evaluations: &Evaluations, found: Found) -> Result<Found, Stop> {
-    let Some(certificate) = found.certificate.clone().filter(|c| c.curvature.is_none()) else {
-        return Ok(found);
-    };
-    let surrogate = if has_gradients(&found.point) {
-        let around = evaluations.graded(&pattern(&found.point.x, VERIFY, false))?;
+/// A certificate with the second-order condition, from fresh evaluations around its design.
+pub(super) fn with_curvature(
+    evaluations: &Evaluations,
+    point: &Point,
+    certificate: Certificate,
+) -> Result<Certificate, Stop> {
+    if certificate.curvature.is_some() {
+        return Ok(certificate);
+    }
+    let centre = evaluations.graded_at(&point.x)?;
+    let surrogate = if has_gradients(&centre) {
+        let around = evaluations.graded(&pattern(&centre.x, VERIFY, false))?;
         let around: Vec<(f64, Point)> = around.into_iter().map(|p| (VERIFY, p)).collect();
-        Surrogate::from_gradients(&found.point, &around)
+        Surrogate::from_gradients(&centre, &around)
     } else {
-        evaluations.all(&pattern(&found.point.x, VERIFY, true))?;
-        let around = evaluations.around(&found.point.x);
-        Surrogate::fit(&found.point, &around, VERIFY)
+        evaluations.all(&pattern(&centre.x, VERIFY, true))?;
+        let around = evaluations.around(&centre.x);
+        Surrogate::fit(&centre, &around, VERIFY)
     };
-    let Some(surrogate) = surrogate else {
-        return Ok(found);
-    };
-    Ok(Found {
-        certificate: Some(certificate.with_curvature(&surrogate, &found.point.x)),
-        ..found
+    Ok(match surrogate {
+        Some(surrogate) => certificate.with_curvature(&surrogate, &centre.x),
+        None => certificate,
     })
 }
 

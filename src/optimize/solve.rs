@@ -37,6 +37,31 @@ pub struct Solved {
     pub coverage: Option<Coverage>,
 }
 
+impl Solved {
+    /// The solution with its second-order condition, from evaluations around it. As it is where the run
+    /// has ended.
+    #[must_use]
+    pub fn with_curvature(mut self, problem: &dyn Problem, archive: &Archive) -> Self {
+        let is_optimum = matches!(self.status, Status::Optimal | Status::BestFound);
+        if let Some(certificate) = self.certificate.clone().filter(|_| is_optimum) {
+            let evaluations = Evaluations::new(problem, archive);
+            let curved = local::with_curvature(&evaluations, &self.point, certificate);
+            self.certificate = curved.ok().or(self.certificate);
+        }
+        self
+    }
+
+    /// The solution with the evidence of a wider search, from whose result it was followed.
+    pub fn followed_from(&mut self, wider: &Self) {
+        self.effort.starts = wider.effort.starts;
+        self.effort.agreed = wider.effort.agreed;
+        self.coverage = wider.coverage;
+        if self.status == Status::Optimal && self.coverage.is_some_and(|c| !c.is_enough()) {
+            self.status = Status::BestFound;
+        }
+    }
+}
+
 /// How far the space was searched for other optima.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coverage {
@@ -76,13 +101,14 @@ const AGAIN: u64 = 1;
 /// [`NoDesign`] if not one design could be evaluated.
 pub fn solve(problem: &dyn Problem, start: &Start, archive: &Archive) -> Result<Solved, NoDesign> {
     let clock = Instant::now();
-    let (count, failures) = (archive.count(), archive.failures());
+    let before = archive.spent();
     let is_free = !problem.variables().is_empty();
     let explored = if is_free {
         let announced = global::forecast(problem.variables().len(), start);
         archive.announce(announced);
         let explored = explore(problem, start, archive);
-        archive.settle(announced, archive.count() - count);
+        let taken = archive.spent().since(&before).evaluations;
+        archive.settle(announced, taken);
         explored
     } else {
         alone(problem, archive)?
@@ -100,20 +126,16 @@ pub fn solve(problem: &dyn Problem, start: &Start, archive: &Archive) -> Result<
     let optima = explored.basins.into_optima();
     if found.status == Status::Infeasible && is_free {
         found = least_violation(problem, archive, found);
-    } else if found.status == Status::Optimal
-        && let Ok(curved) =
-            local::with_curvature(&Evaluations::new(problem, archive), found.clone())
-    {
-        found = curved;
     }
     if found.status == Status::Optimal && coverage.is_some_and(|coverage| !coverage.is_enough()) {
         found.status = Status::BestFound;
     }
     let own = optima.iter().find(|optimum| same(&optimum.found, &found));
+    let spent = archive.spent().since(&before);
     Ok(Solved {
         effort: Effort {
-            evaluations: archive.count() - count,
-            failures: archive.failures_since(&failures),
+            evaluations: spent.evaluations,
+            failures: spent.failures,
             starts: optima.iter().map(|optimum| optimum.searches).sum(),
             agreed: own.map_or(0, |optimum| optimum.searches),
             seconds: clock.elapsed().as_secs_f64(),

@@ -27,6 +27,8 @@ pub struct Everywhere {
     /// The search goes on until the estimated share of the space in basins not yet seen is below
     /// this.
     pub unseen: f64,
+    /// Whether it is also begun from the far ends of the best design's variables.
+    pub turns: bool,
 }
 
 impl Start {
@@ -36,6 +38,7 @@ impl Start {
             everywhere: Some(Everywhere {
                 seed,
                 unseen: UNSEEN,
+                turns: true,
             }),
             designs: Vec::new(),
             radius: local::WIDE,
@@ -56,6 +59,16 @@ impl Start {
     pub fn until(mut self, unseen: f64) -> Self {
         if let Some(everywhere) = &mut self.everywhere {
             everywhere.unseen = unseen;
+        }
+        self
+    }
+
+    /// Only from uniform points and designs known: enough for the estimate of unseen basins, but less
+    /// sure.
+    #[must_use]
+    pub fn plainly(mut self) -> Self {
+        if let Some(everywhere) = &mut self.everywhere {
+            everywhere.turns = false;
         }
         self
     }

@@ -25,6 +25,8 @@ use super::surrogate::{Quadratic, Surrogate};
 const PROGRAMS: usize = 12;
 /// Smallest curvature of H, per radius.
 const CURVATURE: f64 = 1e-6;
+/// A program that adds less than this share to the gain is the last.
+const ENOUGH: f64 = 1e-2;
 /// Settling of the step, in radii: the surrogate is not as good as that.
 const SETTLED: f64 = 1e-3;
 
@@ -83,6 +85,7 @@ pub(super) fn minimise(
         step.objectives.clone_from(&before.objectives);
         step.constraints.clone_from(&before.constraints);
     }
+    let here = weights.merit(surrogate, &step.d);
     let mut best: Option<(f64, Step)> = None;
     let mut damping = 0.0;
     for _ in 0..PROGRAMS {
@@ -93,7 +96,12 @@ pub(super) fn minimise(
         let moved = (&next.d - &step.d).amax();
         let value = weights.merit(surrogate, &next.d);
         if best.as_ref().is_none_or(|(least, _)| value < *least) {
+            let before = best.as_ref().map_or(here, |(least, _)| *least);
+            let is_enough = before - value < ENOUGH * (here - value) && best.is_some();
             best = Some((value, next.clone()));
+            if is_enough {
+                break;
+            }
         } else {
             // The program overshoots the surrogate: keep the multipliers, shorten the step.
             damping = if damping == 0.0 { 1.0 } else { damping * 4.0 };

@@ -260,7 +260,9 @@ pub fn solve_from(problem: &Standard, start: Start, gradients: bool) -> Result<R
             radius: WIDE,
             ..solve::Start::near(vec![near])
         },
-        Start::Anywhere => solve::Start::everywhere(3),
+        Start::Anywhere if gradients => solve::Start::everywhere(3),
+        // Fits to values alone are costly: a few searches will do.
+        Start::Anywhere => solve::Start::everywhere(3).until(0.5),
     };
     let archive = Archive::new(&Silent);
     let solved = solve(&scaled, &start, &archive).map_err(|failure| failure.to_string())?;

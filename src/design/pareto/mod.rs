@@ -76,7 +76,7 @@ const PASSES: usize = 5;
 /// Traces the front of a spec. A run that is stopped before its first point, and one in which no
 /// design could be evaluated, give a front without points.
 pub fn pareto(spec: &Spec, archive: &Archive) -> Front {
-    let (count, before) = (archive.count(), archive.failures());
+    let before = archive.spent();
     let indices = &spec.front.indices;
     let asked = spec.front.points;
     let tracers = tracers(spec, archive);
@@ -104,6 +104,7 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Front {
     }
     points.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
     let gaps = fill::wide_gaps(&points, indices);
+    let spent = archive.spent().since(&before);
     let is_sparse = (points.len() < asked || gaps > 0) && !points.is_empty();
     Front {
         indices: indices.clone(),
@@ -117,8 +118,8 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Front {
         points,
         dominated,
         stopped: archive.stopped(),
-        evaluations: archive.count() - count,
-        failures: archive.failures_since(&before),
+        evaluations: spent.evaluations,
+        failures: spent.failures,
     }
 }
 

@@ -121,9 +121,12 @@ impl Tracer<'_> {
                 study = study.demand(condition, *index, *bound);
             }
         }
-        let Some(searched) = search_feasible(&study, start, self.archive)? else {
+        let Some(mut searched) = search_feasible(&study, start, self.archive)? else {
             return Ok(None);
         };
+        if start.everywhere.is_some() {
+            searched.add_curvature(self.archive);
+        }
         let Searched { study, solved, .. } = &searched;
         if matches!(solved.status, Status::BudgetSpent | Status::Interrupted) {
             return Ok(None);
