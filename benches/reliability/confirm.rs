@@ -2,11 +2,10 @@
 
 use bogie::{
     case::Case,
-    design::search::search,
     optimize::{
         archive::{Archive, Silent},
         local,
-        solve::Start,
+        solve::{Start, solve},
     },
 };
 use rayon::prelude::*;
@@ -18,24 +17,24 @@ use crate::{
 };
 
 /// Evaluations of differential evolution, per variable.
-const EVOLUTION: usize = 1200;
-/// Starts of the evolution strategy; evaluations per variable and first step of each.
+const EVOLUTION: usize = 600;
+/// Starts of the evolution strategy over all profiles; evaluations per variable and first step of each.
 const STARTS: usize = 200;
-const FIRST: (usize, f64) = (20, 0.1);
-/// Of these the best go on, with smaller steps.
-const SECOND: (usize, usize, f64) = (16, 150, 0.03);
-const THIRD: (usize, usize, f64) = (5, 300, 0.01);
+const FIRST: (usize, f64) = (12, 0.1);
+/// How many of the best go on for each profile, likewise.
+const SECOND: (usize, usize, f64) = (10, 100, 0.03);
+const THIRD: (usize, usize, f64) = (3, 250, 0.01);
 /// Starts of the local search of the program.
-const LOCAL: usize = 200;
+const LOCAL: usize = 100;
 /// Seed of all random numbers: no choice of it was made.
 const SEED: u64 = 1981;
 
-/// Adds to the best known designs what the methods come to.
-pub fn confirm(problem: &Problem, known: &mut Known) {
+/// Adds to the best known designs what the methods come to, with so many `times` the evaluations.
+pub fn confirm(problem: &Problem, known: &mut Known, times: usize) {
     let mut spent = 0;
     let mut found: Option<(Case, Worth)> = None;
     for profile in &problem.profiles {
-        let (sample, count) = independent(profile);
+        let (sample, count) = independent(profile, STARTS / problem.profiles.len(), times);
         spent += count;
         if let Some(sample) = sample {
             let case = profile.study.design(&sample.x);
@@ -51,10 +50,10 @@ pub fn confirm(problem: &Problem, known: &mut Known) {
     if let Some((case, _)) = &found {
         learn(known, problem, "independent", case, spent);
     }
-    if let Some((case, count)) = many_local(problem) {
+    let met = found.as_ref().is_some_and(|(_, worth)| worth.met());
+    if let Some((case, count)) = many_local(problem, met) {
         learn(known, problem, "local from everywhere", &case, count);
     }
-    // A start that came close to the best design by other ways is followed to its end.
     let best = known.get(&problem.name).map(|best| best.worth(problem));
     let short = found.zip(best).map(|((_, own), best)| own.behind(best));
     let short = short.map_or_else(String::new, |short| format!(", independent {short:+.6}"));
@@ -67,31 +66,35 @@ pub fn confirm(problem: &Problem, known: &mut Known) {
 
 /// The best design of a profile by differential evolution and the evolution strategy, with the
 /// evaluations that they took. Where none meets all demands, the one of least violation.
-fn independent(profile: &Profile) -> (Option<Sample>, usize) {
+fn independent(profile: &Profile, starts: usize, times: usize) -> (Option<Sample>, usize) {
     let study = Counted::new(&profile.study);
-    let found = polished(&study);
+    let found = polished(&study, starts, times);
     let met = found.as_ref().is_some_and(Sample::feasible);
     if met {
         return (found, study.count());
     }
     let short = Counted::new(&profile.shortfall);
-    let closest = polished(&short);
+    let closest = polished(&short, starts, times);
     let mut count = study.count() + short.count();
     // Where the demands are met after all, the objective decides.
     if let Some(closest) = closest.as_ref().filter(|s| s.objective <= 0.0) {
         let again = Counted::new(&profile.study);
         let n = closest.x.len();
-        let from = refined(&again, &[closest.clone()], (1, 10 * THIRD.1 * n, SECOND.2));
+        let from = refined(
+            &again,
+            std::slice::from_ref(closest),
+            (1, 10 * times * THIRD.1 * n, SECOND.2),
+        );
         count += again.count();
         return (best(from), count);
     }
     (closest, count)
 }
 
-fn polished(study: &Counted) -> Option<Sample> {
-    let starts = uniform(study, STARTS, SEED);
-    let n = starts.first()?.x.len();
-    let mut ends = refined(study, &starts, (STARTS, FIRST.0 * n, FIRST.1));
+fn polished(study: &Counted, starts: usize, times: usize) -> Option<Sample> {
+    let starts = uniform(study, starts, SEED);
+    let n = times * starts.first()?.x.len();
+    let mut ends = refined(study, &starts, (starts.len(), FIRST.0 * n, FIRST.1));
     ends.extend(best(evolve(study, EVOLUTION * n, SEED)));
     for (count, evaluations, sigma) in [SECOND, THIRD] {
         ends.sort_by(|a, b| match (a.better_than(b), b.better_than(a)) {
@@ -114,29 +117,41 @@ fn refined(study: &Counted, from: &[Sample], how: (usize, usize, f64)) -> Vec<Sa
         .collect()
 }
 
-/// The best design that the program's own local search comes to from many random designs, without its
-/// global phase, and the evaluations.
-fn many_local(problem: &Problem) -> Option<(Case, usize)> {
-    let archive = Archive::new(&Silent);
+/// The best design that the program's own local search comes to from many random designs, each by
+/// itself and without a global phase, and the evaluations. Where the demands are out of reach, the least
+/// violation is sought.
+fn many_local(problem: &Problem, met: bool) -> Option<(Case, usize)> {
     let mut found: Option<(Case, Worth)> = None;
+    let mut count = 0;
     for profile in &problem.profiles {
-        let starts = uniform(&Counted::new(&profile.study), LOCAL, SEED + 1);
-        let start = Start {
-            radius: local::WIDE,
-            ..Start::near(starts.into_iter().map(|s| s.x).collect())
+        let study = if met {
+            &profile.study
+        } else {
+            &profile.shortfall
         };
-        let Ok(searched) = search(&profile.study, &start, &archive) else {
-            continue;
-        };
-        let n = profile.study.parameters().len();
-        let case = profile.study.design(&searched.solved.point.x[..n]);
-        let worth = problem.worth(&case);
-        if found
-            .as_ref()
-            .is_none_or(|(_, best)| worth.behind(*best) < 0.0)
-        {
-            found = Some((case, worth));
+        let count_of_each = LOCAL / problem.profiles.len();
+        let starts = uniform(&Counted::new(study), count_of_each, SEED + 1);
+        let ends = starts.into_par_iter().map(|start| {
+            let archive = Archive::new(&Silent);
+            let start = Start {
+                radius: local::WIDE,
+                ..Start::near(vec![start.x])
+            };
+            let x = solve(study, &start, &archive).ok().map(|s| s.point.x);
+            (x, archive.count())
+        });
+        for (x, evaluations) in ends.collect::<Vec<_>>() {
+            count += evaluations;
+            let Some(x) = x else { continue };
+            let case = profile.study.design(&x);
+            let worth = problem.worth(&case);
+            if found
+                .as_ref()
+                .is_none_or(|(_, best)| worth.behind(*best) < 0.0)
+            {
+                found = Some((case, worth));
+            }
         }
     }
-    found.map(|(case, _)| (case, archive.count()))
+    found.map(|(case, _)| (case, count))
 }

@@ -3,6 +3,7 @@
 //!
 //! ```sh
 //! cargo bench --bench reliability                        # the table, in Markdown
+//! cargo bench --bench reliability -- --into FILE.md      # the same, and into a page
 //! cargo bench --bench reliability -- --seeds 2 A6        # two seeds, problems whose name contains A6
 //! cargo bench --bench reliability -- --json runs.json    # every run
 //! cargo bench --bench reliability -- --confirm           # best.json by other methods, in an hour
@@ -26,6 +27,9 @@ use std::fs;
 use clap::Parser;
 use problem::Problem;
 
+/// Between these the table stands in a page.
+const MARKS: [&str; 2] = ["<!-- reliability -->\n", "<!-- end of reliability -->"];
+
 /// How often the search comes to the best known design.
 #[derive(Parser)]
 struct Options {
@@ -37,12 +41,18 @@ struct Options {
     /// File for every run, as JSON.
     #[arg(long)]
     json: Option<String>,
+    /// A page in Markdown that takes the table between its marks, see [`MARKS`].
+    #[arg(long, value_name = "FILE")]
+    into: Option<String>,
     /// Looks for the best designs by other methods, and takes them over into best.json.
     #[arg(long)]
     confirm: bool,
-    /// Reads designs of one problem from standard input and answers with their values.
-    #[arg(long)]
-    serve: bool,
+    /// Evaluations of the other methods, in times of those that they usually take.
+    #[arg(long, default_value_t = 1)]
+    times: usize,
+    /// A problem: reads designs of it from standard input and answers with their values.
+    #[arg(long, value_name = "NAME")]
+    serve: Option<String>,
     /// Lists the problems.
     #[arg(long)]
     list: bool,
@@ -53,29 +63,24 @@ struct Options {
 
 fn main() -> std::io::Result<()> {
     let options = Options::parse();
-    let problems = Problem::all(&options.names);
-    if options.serve {
-        let exact = problems.iter().find(|p| options.names.contains(&p.name));
-        return serve::serve(exact.expect("the name of a problem"));
+    if let Some(name) = &options.serve {
+        let problems = Problem::all(std::slice::from_ref(name));
+        let problem = problems.iter().find(|problem| problem.name == *name);
+        return serve::serve(problem.expect("the name of a problem"));
     }
+    let problems = Problem::all(&options.names);
     let mut known = best::read();
     let mut all = Vec::new();
     for problem in &problems {
         if options.list {
             println!("{}: {}", problem.name, problem.origin);
         } else if options.confirm {
-            confirm::confirm(problem, &mut known);
+            confirm::confirm(problem, &mut known, options.times);
             best::write(&known);
         } else {
             let runs = runs::run(problem, options.seeds, &mut known);
-            eprint!(
-                "{}",
-                runs::table(std::slice::from_ref(&runs))
-                    .lines()
-                    .nth(2)
-                    .unwrap_or_default()
-            );
-            eprintln!();
+            let table = runs::table(std::slice::from_ref(&runs));
+            eprintln!("{}", table.lines().nth(2).unwrap_or_default());
             all.push(runs);
         }
     }
@@ -83,9 +88,21 @@ fn main() -> std::io::Result<()> {
         return Ok(());
     }
     best::write(&known);
-    print!("{}", runs::table(&all));
-    match &options.json {
-        Some(file) => fs::write(file, serde_json::to_string_pretty(&all)?),
+    let table = runs::table(&all);
+    print!("{table}");
+    if let Some(file) = &options.json {
+        fs::write(file, serde_json::to_string_pretty(&all)?)?;
+    }
+    match &options.into {
+        Some(file) => fs::write(file, between_marks(&fs::read_to_string(file)?, &table)),
         None => Ok(()),
     }
+}
+
+/// A page with another table between its marks.
+fn between_marks(page: &str, table: &str) -> String {
+    let [first, last] = MARKS;
+    let (head, rest) = page.split_once(first).expect("the first mark in the page");
+    let (_, tail) = rest.split_once(last).expect("the last mark in the page");
+    format!("{head}{first}\n{table}\n{last}{tail}")
 }

@@ -73,7 +73,7 @@ impl Worth {
 }
 
 impl Problem {
-    /// All problems whose name contains one of `names`; all if there is none.
+    /// Problems whose name contains one of `names`; all if there is none.
     pub fn all(names: &[String]) -> Vec<Self> {
         let files = fs::read_dir(folder().join("problems")).expect("folder of problems");
         let mut files: Vec<PathBuf> = files.map(|file| file.expect("a file").path()).collect();
