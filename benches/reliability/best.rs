@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::problem::{Problem, Worth, folder};
 
 /// The best known design of a problem.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Best {
     /// Its objective, a cost.
     pub merit: f64,
@@ -23,7 +23,7 @@ pub struct Best {
 }
 
 /// What one method came to.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reached {
     /// Objective; `None` without a design that has a performance.
     pub merit: Option<f64>,

@@ -23,7 +23,7 @@ const STARTS: usize = 200;
 const FIRST: (usize, f64) = (12, 0.1);
 /// How many of the best go on for each profile, likewise.
 const SECOND: (usize, usize, f64) = (10, 100, 0.03);
-const THIRD: (usize, usize, f64) = (3, 250, 0.01);
+const THIRD: (usize, usize, f64) = (4, 1000, 0.01);
 /// Starts of the local search of the program.
 const LOCAL: usize = 100;
 /// Seed of all random numbers: no choice of it was made.
@@ -83,7 +83,7 @@ fn independent(profile: &Profile, starts: usize, times: usize) -> (Option<Sample
         let from = refined(
             &again,
             std::slice::from_ref(closest),
-            (1, 10 * times * THIRD.1 * n, SECOND.2),
+            (1, times * THIRD.1 * n, SECOND.2),
         );
         count += again.count();
         return (best(from), count);

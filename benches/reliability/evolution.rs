@@ -192,7 +192,7 @@ pub fn strategy(
     const FADING: f64 = 1.0 / 12.0;
     /// Ancestor that a step must at least beat, and the step below which no more can be gained.
     const ANCESTOR: usize = 5;
-    const SMALLEST: f64 = 1e-8;
+    const SMALLEST: f64 = 1e-7;
     let n = study.variables();
     let size = n as f64;
     let [damping, path_rate] = [1.0 + size / 2.0, 2.0 / (size + 2.0)];

@@ -69,7 +69,8 @@ fn main() -> std::io::Result<()> {
         return serve::serve(problem.expect("the name of a problem"));
     }
     let problems = Problem::all(&options.names);
-    let mut known = best::read();
+    let before = best::read();
+    let mut known = before.clone();
     let mut all = Vec::new();
     for problem in &problems {
         if options.list {
@@ -87,7 +88,9 @@ fn main() -> std::io::Result<()> {
     if all.is_empty() {
         return Ok(());
     }
-    best::write(&known);
+    if known != before {
+        best::write(&known);
+    }
     let table = runs::table(&all);
     print!("{table}");
     if let Some(file) = &options.json {
