@@ -20,6 +20,8 @@ are at a disadvantage there.
 All but SLSQP, COBYQA, DE and SHGO, which end by themselves, have a budget of 3000 evaluations. A run has
 reached the best known design if one of its evaluations is feasible within 1e-5 and within 0.001 of the
 best known merit. Each cell: runs that reached it, and the median of all evaluations spent.
+
+Runs of the other methods are kept in others.json and made again with --measure; bogie's are always new.
 """
 
 import argparse
@@ -43,8 +45,9 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "benches/yardstick"))
 import compare  # noqa: E402
 
-PROBLEMS = ["A2", "A6", "B2s", "D3", "I2", "eight-decades", "manchester-forces",
-            "prototype-damped-kinematic", "random-3", "prototype-ten"]
+PROBLEMS = ["A2", "A6", "B2s", "D3", "eight-decades", "manchester-forces",
+            "prototype-damped-kinematic", "prototype-ten", "random-4", "zhai-ordinary-ride"]
+KEPT = Path(__file__).with_name("others.json")
 NEAR, BUDGET, PENALTY = 1e-3, 3000, 20.0
 MARKS = ["<!-- others -->", "<!-- end of others -->"]
 BENCH = ["cargo", "bench", "-q", "--bench", "reliability", "--"]
@@ -178,29 +181,46 @@ def starts(case, seed):
                 yield name, result
 
 
-def bogie(name, seeds):
-    """Runs of bogie itself, in the form of the table."""
+def bogie(names):
+    """Runs of bogie itself, by problem: (reached, evaluations)."""
     file = Path(OPTIONS.scratch) / "bogie.json"
-    subprocess.run([*BENCH, "--seeds", str(seeds), name, "--json", str(file)], cwd=ROOT,
+    subprocess.run([*BENCH, "--seeds", str(OPTIONS.seeds), *names, "--json", str(file)], cwd=ROOT,
                    check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    own = next(own for own in json.loads(file.read_text()) if own["name"] == name)
-    return [(run["reached"], run["evaluations"]) for run in own["seeds"]]
+    runs = {own["name"]: own["seeds"] for own in json.loads(file.read_text())}
+    return {name: [(run["reached"], run["evaluations"]) for run in runs[name]] for name in names}
 
 
-def problem(name):
-    """Of each method: its runs as (reached, evaluations)."""
-    methods = {"bogie": bogie(name, OPTIONS.seeds)}
+def measure(name):
+    """Runs of the other methods: the best feasible objective, or None, and the evaluations."""
+    methods = {}
     case = Served(name)
-    goal = case.head["merit"] + NEAR
     for seed in range(1, OPTIONS.seeds + 1):
         for method in (starts, compare.evolution, simplicial, annealing, pymoo):
             for label, result in method(case, seed):
                 found = compare.best(result["log"])
-                reached = bool(found) and found["objective"] <= goal
-                methods.setdefault(label, []).append((reached, result["evaluations"]))
-                print(f"{name}, seed {seed}, {label}: {methods[label][-1]}", file=sys.stderr)
+                run = [found and found["objective"], result["evaluations"]]
+                methods.setdefault(label, []).append(run)
+                print(f"{name}, seed {seed}, {label}: {run}", file=sys.stderr)
     case.close()
     return methods
+
+
+def results():
+    """Of each problem and method the runs as (reached, evaluations)."""
+    kept = json.loads(KEPT.read_text()) if KEPT.exists() else {}
+    for name in OPTIONS.names:
+        if OPTIONS.measure or name not in kept:
+            kept[name] = measure(name)
+            KEPT.write_text(json.dumps(kept, indent=1) + "\n")
+    known = json.loads(KEPT.with_name("best.json").read_text())
+    own = bogie(OPTIONS.names)
+    return {
+        name: {"bogie": own[name]} | {
+            label: [(merit is not None and merit <= known[name]["merit"] + NEAR, count)
+                    for merit, count in runs]
+            for label, runs in kept[name].items()}
+        for name in OPTIONS.names
+    }
 
 
 def table(results):
@@ -231,6 +251,7 @@ def options():
     parser.add_argument("names", nargs="*", default=PROBLEMS, help="problems (ten)")
     parser.add_argument("--seeds", type=int, default=5, metavar="N", help="runs of each (5)")
     parser.add_argument("--into", metavar="FILE", help="page that takes the table between its marks")
+    parser.add_argument("--measure", action="store_true", help="run the other methods again")
     parser.add_argument("--scratch", default="/tmp", help="folder for bogie's runs")
     return parser.parse_args()
 
@@ -241,7 +262,7 @@ if __name__ == "__main__":
     compare.OPTIONS = types.SimpleNamespace(quick=False, starts=8)
     compare.Run = Run
     warnings.simplefilter("ignore")
-    text = table({name: problem(name) for name in OPTIONS.names})
+    text = table(results())
     print(text)
     if OPTIONS.into:
         page = Path(OPTIONS.into)
