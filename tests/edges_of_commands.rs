@@ -112,9 +112,9 @@ fn each_says_what_is_the_matter() {
         let mut said = String::new();
         for (args, code) in [
             (&["optimize", "-", "--budget", "70"][..], optimize),
-            (&["pareto", "-", "--budget", "60", "--points", "2"], pareto),
+            (&["pareto", "-", "--budget", "600", "--points", "2"], pareto),
             (
-                &["pareto", "-", "--budget", "60", "--format", "csv"],
+                &["pareto", "-", "--budget", "600", "--format", "csv"],
                 pareto,
             ),
             (&["sweep", "-", "--designs", "6"], 0),

@@ -23,7 +23,7 @@ const GAIN: f64 = 1e-5;
 pub struct Run {
     /// Seed of the search.
     pub seed: u64,
-    /// Objective of the design delivered.
+    /// Objective of the optimum found.
     pub merit: Option<f64>,
     /// Its largest relative shortfall of a demand.
     pub violation: Option<f64>,
@@ -69,17 +69,17 @@ pub fn run(problem: &Problem, seeds: u64, known: &mut Known) -> Runs {
         })
         .collect();
     for (_, result) in &designs {
-        let worth = problem.worth(&result.case);
+        let worth = problem.worth(&result.optimum);
         let before = known.get(&problem.name).map(|best| best.worth(problem));
         if before.is_none_or(|before| worth.behind(before) < -GAIN) {
             let count = result.effort.evaluations;
-            learn(known, problem, "bogie", &result.case, count);
+            learn(known, problem, "bogie", &result.optimum, count);
         }
     }
     let best = known.get(&problem.name);
     let target = best.map_or(Worth::NONE, |best| best.worth(problem));
     let runs = designs.iter().map(|(seed, result)| {
-        let worth = problem.worth(&result.case);
+        let worth = problem.worth(&result.optimum);
         let behind = worth.behind(target);
         let stage = result.delivered_stages().last();
         let status = stage.map(|stage| format!("{:?}", stage.explained.status));

@@ -283,8 +283,8 @@ impl Study {
     /// The nominal case with such values of the parameters that vary, SI.
     fn with_values(&self, values: &[f64]) -> Case {
         let mut case = self.base.clone();
-        // Twice: a rule may depend on what is set after it.
-        for _ in 0..2 {
+        // A rule may depend on what is set after it, and that on the next.
+        for _ in 0..=self.rules.len().max(1) {
             for parameter in Parameter::ALL {
                 if let Some(i) = self.parameters.iter().position(|p| *p == parameter) {
                     parameter.set(&mut case, values[i]);

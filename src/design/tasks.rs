@@ -81,8 +81,8 @@ impl<'a> Tasks<'a> {
     /// one of the profiles, and all rules applied.
     pub fn admissible(&self, given: &Case) -> Case {
         let mut case = given.clone();
-        // Twice: a rule may depend on what is set after it.
-        for _ in 0..2 {
+        // A rule may depend on what is set after it, and that on the next.
+        for _ in 0..=self.space.parameters.len().max(1) {
             for parameter in Parameter::ALL {
                 let Some(freedom) = self.space.freedom(parameter) else {
                     continue;

@@ -129,6 +129,12 @@ enum Round {
 
 impl<'a> Multistart<'a> {
     fn new(archive: &'a Archive<'a>, start: &Start, n: usize) -> Self {
+        let mut others: VecDeque<Vec<f64>> = VecDeque::new();
+        for design in &start.designs {
+            if !others.contains(design) {
+                others.push_back(design.clone());
+            }
+        }
         Self {
             archive,
             radius: start.radius,
@@ -136,7 +142,7 @@ impl<'a> Multistart<'a> {
             random: ChaCha8Rng::seed_from_u64(start.everywhere.map_or(0, |e| e.seed)),
             sample: VecDeque::new(),
             failed: 0,
-            others: start.designs.iter().cloned().collect(),
+            others,
             turned: Vec::new(),
             is_covered: false,
             again: 0,

@@ -250,13 +250,19 @@ impl Region<'_> {
     }
 
     /// Whether the search has come to a known optimum, or so near and so far down its slope that it
-    /// will.
+    /// will; of designs of least violation the violation counts.
     fn has_arrived(&self, known: &Found) -> bool {
-        let above = self.centre.merit(self.penalty) - known.point.merit(self.penalty);
-        known.status == Status::Optimal
-            && (near(&known.point.x, &self.centre.x, ARRIVED)
-                || near(&known.point.x, &self.centre.x, NEIGHBOUR)
-                    && (-NO_BETTER..LEVEL).contains(&above))
+        let height = |point: &Point| match (known.status, &point.values) {
+            (Status::Optimal, _) => Some(point.merit(self.penalty)),
+            (Status::Infeasible, Ok(values)) => Some(values.violation()),
+            _ => None,
+        };
+        let (Some(here), Some(there)) = (height(&self.centre), height(&known.point)) else {
+            return false;
+        };
+        let is_level = (-NO_BETTER..LEVEL).contains(&(here - there));
+        let is_near = |within: f64| near(&known.point.x, &self.centre.x, within);
+        is_near(NEIGHBOUR) && is_level || known.status == Status::Optimal && is_near(ARRIVED)
     }
 
     fn weights(&self) -> Weights {
