@@ -103,7 +103,6 @@ pub(super) fn screened(
                 everywhere: None,
                 designs: vec![x],
                 radius: NARROW,
-                ..start.clone()
             };
             return Ok(Screened::Settled(Settled {
                 found,

@@ -147,6 +147,7 @@ impl<'a> Archive<'a> {
     }
 
     /// The same archive with an account of its own, for one of several searches side by side.
+    #[must_use]
     pub fn branch(&self) -> Self {
         Self {
             kept: Arc::clone(&self.kept),

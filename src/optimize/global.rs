@@ -167,7 +167,9 @@ impl<'a> Multistart<'a> {
                 let count = self.others.len().min(ROUND);
                 let designs: Vec<Vec<f64>> = self.others.drain(..count).collect();
                 let points = evaluations.graded(&designs)?;
-                points.iter().for_each(|point| self.meet(point));
+                for point in &points {
+                    self.meet(point);
+                }
                 let usable: Vec<Point> = points.into_iter().filter(|p| p.values.is_ok()).collect();
                 if usable.is_empty() {
                     continue;
@@ -310,7 +312,9 @@ impl<'a> Multistart<'a> {
                 _ => None,
             });
             self.basins.add(found, is_uniform);
-            met.iter().for_each(|point| self.meet(point));
+            if let Some(point) = met {
+                self.meet(&point);
+            }
         }
         stop.map_or(Ok(()), Err)
     }
