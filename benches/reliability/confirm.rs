@@ -29,7 +29,7 @@ const LOCAL: usize = 100;
 /// Seed of all random numbers: no choice of it was made.
 const SEED: u64 = 1981;
 
-/// Adds to the best known designs what the methods come to, with so many `times` the evaluations.
+/// Adds to the best known designs what the methods come to, with so many `times` the usual starts.
 pub fn confirm(problem: &Problem, known: &mut Known, times: usize) {
     let mut spent = 0;
     let mut found: Option<(Case, Worth)> = None;
@@ -83,7 +83,7 @@ fn independent(profile: &Profile, starts: usize, times: usize) -> (Option<Sample
         let from = refined(
             &again,
             std::slice::from_ref(closest),
-            (1, times * THIRD.1 * n, SECOND.2),
+            (1, THIRD.1 * n, SECOND.2),
         );
         count += again.count();
         return (best(from), count);
@@ -92,17 +92,17 @@ fn independent(profile: &Profile, starts: usize, times: usize) -> (Option<Sample
 }
 
 fn polished(study: &Counted, starts: usize, times: usize) -> Option<Sample> {
-    let starts = uniform(study, starts, SEED);
-    let n = times * starts.first()?.x.len();
+    let starts = uniform(study, times * starts, SEED);
+    let n = starts.first()?.x.len();
     let mut ends = refined(study, &starts, (starts.len(), FIRST.0 * n, FIRST.1));
-    ends.extend(best(evolve(study, EVOLUTION * n, SEED)));
+    ends.extend(best(evolve(study, times * EVOLUTION * n, SEED)));
     for (count, evaluations, sigma) in [SECOND, THIRD] {
         ends.sort_by(|a, b| match (a.better_than(b), b.better_than(a)) {
             (true, _) => std::cmp::Ordering::Less,
             (_, true) => std::cmp::Ordering::Greater,
             _ => std::cmp::Ordering::Equal,
         });
-        ends = refined(study, &ends, (count, evaluations * n, sigma));
+        ends = refined(study, &ends, (times * count, evaluations * n, sigma));
     }
     best(ends)
 }

@@ -47,7 +47,7 @@ struct Options {
     /// Looks for the best designs by other methods, and takes them over into best.json.
     #[arg(long)]
     confirm: bool,
-    /// Evaluations of the other methods, in times of those that they usually take.
+    /// Starts of the other methods, in times of those that they usually take.
     #[arg(long, default_value_t = 1)]
     times: usize,
     /// A problem: reads designs of it from standard input and answers with their values.
