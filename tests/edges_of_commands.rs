@@ -111,7 +111,7 @@ fn each_says_what_is_the_matter() {
         let spec = format!("[vehicle]\nbase = \"prototype\"\n{tables}{DESIGN}");
         let mut said = String::new();
         for (args, code) in [
-            (&["optimize", "-", "--budget", "70"][..], optimize),
+            (&["optimize", "-", "--budget", "600"][..], optimize),
             (&["pareto", "-", "--budget", "600", "--points", "2"], pareto),
             (
                 &["pareto", "-", "--budget", "600", "--format", "csv"],
