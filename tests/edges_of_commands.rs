@@ -27,20 +27,20 @@ const EDGES: [(&str, &str, [i32; 2], &str); 7] = [
         "springs so soft that the carbody overturns",
         "[suspension.secondary]\nvertical_stiffness = \"222 lbf/ft\"\n\
          lateral_stiffness = \"240 lbf/ft\"\n",
-        [4, 3],
+        [3, 3],
         "a static instability",
     ),
     (
         "wheelsets that diverge",
         "[wheel_rail]\nconicity = 1e-6\ncontact_angle_difference = -1000\n",
-        [4, 3],
+        [3, 3],
         "a static instability",
     ),
     (
         "dampers ten times critical",
         "[suspension.secondary]\nvertical_damping = \"200000 lbf s/ft\"\n\
          lateral_damping = \"120000 lbf s/ft\"\n",
-        [4, 4],
+        [0, 4],
         "above 1 the dampers hold carbody and trucks together",
     ),
     (
@@ -48,13 +48,13 @@ const EDGES: [(&str, &str, [i32; 2], &str); 7] = [
         "[wheel_rail]\nconicity = 0.25\nlateral_spin_creep = \"0 N m\"\nspin_creep = \"0 N m^2\"\n\
          roll_coefficient = 0\ncontact_angle = \"0 deg\"\ncontact_angle_difference = 0\n\
          [service]\nspeed = \"500 mph\"\n",
-        [4, 3],
+        [3, 3],
         "unstable at the operating speed",
     ),
     (
         "stable at every speed",
         "[wheel_rail]\nconicity = 1e-6\n",
-        [0, 4],
+        [0, 0],
         "stable up to",
     ),
     (
@@ -65,13 +65,13 @@ const EDGES: [(&str, &str, [i32; 2], &str); 7] = [
          vertical_damping = \"0 N s/m\"\n\
          [suspension.secondary]\nlateral_damping = \"0 N s/m\"\nvertical_damping = \"0 N s/m\"\n\
          yaw_stiffness = \"0 N m/rad\"\nyaw_breakaway_torque = \"0 N m\"\n",
-        [4, 3],
+        [3, 3],
         "vertical_acceleration: unstable at the operating speed",
     ),
     (
         "a carbody that hardly anything holds in a curve",
         "[suspension.secondary]\nlateral_stiffness = \"0.01 N/m\"\nyaw_stiffness = \"0 N m/rad\"\n",
-        [4, 4],
+        [4, 3],
         "asked 38.10 mm (1.500 in), reached",
     ),
 ];

@@ -134,7 +134,7 @@ impl Problem for Study {
         true
     }
 
-    /// Conditions are measured side by side, [`SIDE_BY_SIDE`] at a time; none further once one fails.
+    /// Conditions are measured side by side, a few at a time; none further once one fails.
     fn measure(&self, x: &[f64], detail: Detail) -> Result<Vec<Piece>, Failure> {
         let case = self.design(x);
         let mut measured = Vec::new();
