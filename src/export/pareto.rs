@@ -156,13 +156,15 @@ pub(crate) fn sparse(front: &Front) -> Option<String> {
         parts.push(format!("{} points were asked for", front.asked));
     }
     if sparse.gaps > 0 {
-        parts.push(format!(
-            "{} gaps are wider than three times the mean",
-            sparse.gaps
-        ));
+        parts.push(match sparse.gaps {
+            1 => "one gap is wider than three times the mean".into(),
+            n => format!("{n} gaps are wider than three times the mean"),
+        });
     }
     parts.push(match sparse.jumps {
         0 => "the searches allowed for were not enough".into(),
+        1 => "between two neighbouring points a search came to no other point: the front jumps there"
+            .into(),
         n => format!(
             "at {n} places between neighbouring points a search came to no other point: the front jumps \
              there"

@@ -104,40 +104,58 @@ pub(super) fn fill(
         };
         tries += 1;
         filling.tries += 1;
-        let (a, b) = (&badness[*i], &badness[*j]);
-        let found = between(tracers, [&points[*i], &points[*j]], filling.tries);
+        let (a, b) = (badness[*i].clone(), badness[*j].clone());
+        let ends = [points[*i].clone(), points[*j].clone()];
         let count = points.len();
-        points.extend(found);
-        clean(points, indices);
+        for aim in aims(indices, [&a, &b]) {
+            points.extend(between(tracers, &ends, &aim, filling.tries));
+            clean(points, indices);
+            if points.len() > count {
+                break;
+            }
+        }
         if points.len() <= count {
-            filling.closed.push([a.clone(), b.clone()]);
+            filling.closed.push([a, b]);
         }
     }
     filling.is_at_end = false;
 }
 
-/// Points half-way between two: the index in which they differ least is made as good as can be, within
-/// the means of the others.
-fn between(tracers: &[Tracer], ends: [&FrontPoint; 2], number: usize) -> Vec<FrontPoint> {
-    let indices = tracers[0].indices;
-    let [a, b] = ends.map(|point| point.badness(indices));
-    let differences = a.iter().zip(&b).map(|(a, b)| (a - b).abs());
-    let least = differences
-        .enumerate()
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-        .map_or(0, |(k, _)| k);
-    let kept = (0..indices.len()).filter(|k| *k != least);
-    let aim = Aim {
-        objective: indices[least],
-        bounds: kept
-            .map(|k| {
-                (
-                    indices[k],
-                    of_badness(indices[k], f64::midpoint(a[k], b[k])),
-                )
-            })
-            .collect(),
+/// Searches half-way between two points: one index is made as good as can be within the means of the
+/// others. First the index in which the points differ least; the critical speed last, which changes
+/// smoothly as a bound.
+fn aims(indices: &[Index], [a, b]: [&[f64]; 2]) -> Vec<Aim> {
+    let difference = |k: usize| (a[k] - b[k]).abs();
+    let mut objectives: Vec<usize> = (0..indices.len()).collect();
+    objectives.sort_by(|i, j| {
+        let is_speed = |k: usize| indices[k] == Index::CriticalSpeed;
+        let by_speed = is_speed(*i).cmp(&is_speed(*j));
+        by_speed.then(difference(*i).total_cmp(&difference(*j)))
+    });
+    let aim = |objective: usize| {
+        let kept = (0..indices.len()).filter(|k| *k != objective);
+        Aim {
+            objective: indices[objective],
+            bounds: kept
+                .map(|k| {
+                    (
+                        indices[k],
+                        of_badness(indices[k], f64::midpoint(a[k], b[k])),
+                    )
+                })
+                .collect(),
+        }
     };
+    objectives.into_iter().map(aim).collect()
+}
+
+/// Points of an aim between two, for the profiles of both.
+fn between(
+    tracers: &[Tracer],
+    ends: &[FrontPoint; 2],
+    aim: &Aim,
+    number: usize,
+) -> Vec<FrontPoint> {
     let mut profiles = vec![ends[0].profile, ends[1].profile];
     profiles.dedup();
     profiles
@@ -146,7 +164,7 @@ fn between(tracers: &[Tracer], ends: [&FrontPoint; 2], number: usize) -> Vec<Fro
             let tracer = &tracers[profile];
             tracer.announce(&format!("gap {number}"));
             let own = ends.iter().filter(|point| point.profile == profile);
-            tracer.follow(&aim, own.map(|point| point.x.clone()).collect())
+            tracer.beside(aim, own.map(|point| point.x.clone()).collect())
         })
         .collect()
 }

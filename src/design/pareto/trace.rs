@@ -88,7 +88,13 @@ impl Tracer<'_> {
                 bounds: bounds.to_vec(),
             };
             let known = points.iter().map(|p| p.x.clone()).collect();
-            let alone = match self.everywhere(&aim, known) {
+            // The ends of slices follow the basins seen, as all points between the ends do.
+            let alone = if bounds.is_empty() {
+                self.everywhere(&aim, known)
+            } else {
+                Ok(self.follow(&aim, known))
+            };
+            let alone = match alone {
                 Ok(Some(alone)) => alone,
                 Ok(None) => continue,
                 // What is done stays.

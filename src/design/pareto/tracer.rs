@@ -57,7 +57,7 @@ pub(super) struct Pool(Mutex<Vec<Vec<f64>>>);
 
 impl Pool {
     /// Designs kept at most; the latest are.
-    const KEPT: usize = 8;
+    const KEPT: usize = 5;
     /// Designs of different basins differ by this in some variable.
     const APART: f64 = 0.15;
 
@@ -98,6 +98,15 @@ impl Tracer<'_> {
         self.solve(aim, &start).ok().flatten()
     }
 
+    /// The best point of an aim from designs near it alone.
+    pub fn beside(&self, aim: &Aim, near: Vec<Vec<f64>>) -> Option<FrontPoint> {
+        let start = Start {
+            radius: WIDE / 2.0,
+            ..Start::near(near)
+        };
+        self.solve(aim, &start).ok().flatten()
+    }
+
     /// As [`Tracer::follow`], searched everywhere too.
     ///
     /// # Errors
@@ -110,6 +119,18 @@ impl Tracer<'_> {
     ) -> Result<Option<FrontPoint>, NoDesign> {
         let others = self.pool.others(&near);
         self.solve(aim, &self.everywhere.clone().with(near).with(others))
+    }
+
+    /// As [`Tracer::everywhere`], from uniform points and the basins seen: far ends of a point's variables
+    /// are what its neighbours' basins show.
+    ///
+    /// # Errors
+    ///
+    /// [`NoDesign`] if not one design could be evaluated.
+    pub fn verify(&self, aim: &Aim, near: Vec<Vec<f64>>) -> Result<Option<FrontPoint>, NoDesign> {
+        let others = self.pool.others(&near);
+        let start = self.everywhere.clone().plainly();
+        self.solve(aim, &start.with(near).with(others))
     }
 
     /// One point; `None` if no design found keeps the bounds, or the run ended before it converged.

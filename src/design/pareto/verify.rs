@@ -29,7 +29,7 @@ fn verified(tracers: &[Tracer], points: &mut [FrontPoint], i: usize) -> Option<b
         return Some(false);
     }
     tracer.announce(&format!("verifying point {} of {}", i + 1, points.len()));
-    let found = tracer.everywhere(&point.aim, vec![point.x.clone()]);
+    let found = tracer.verify(&point.aim, vec![point.x.clone()]);
     if tracer.archive.stopped().is_some() {
         return None;
     }
