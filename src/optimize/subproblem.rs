@@ -25,10 +25,6 @@ use super::surrogate::{Quadratic, Surrogate};
 const PROGRAMS: usize = 12;
 /// Smallest curvature of H, per radius.
 const CURVATURE: f64 = 1e-6;
-/// A program that adds less than this share to the gain is the last, where the step is longer than
-/// [`LONG`] radii: the region, not the surrogate, decides it. Short steps are those that converge.
-const ENOUGH: f64 = 1e-2;
-const LONG: f64 = 0.9;
 /// Settling of the step, in radii: the surrogate is not as good as that.
 const SETTLED: f64 = 1e-3;
 
@@ -87,10 +83,9 @@ pub(super) fn minimise(
         step.objectives.clone_from(&before.objectives);
         step.constraints.clone_from(&before.constraints);
     }
-    let here = weights.merit(surrogate, &step.d);
     let mut best: Option<(f64, Step)> = None;
     let mut damping = 0.0;
-    for k in 0..PROGRAMS {
+    for _ in 0..PROGRAMS {
         let Some(mut next) = program(surrogate, &step, lower, upper, radius, weights, damping)
         else {
             break;
@@ -98,13 +93,7 @@ pub(super) fn minimise(
         let moved = (&next.d - &step.d).amax();
         let value = weights.merit(surrogate, &next.d);
         if best.as_ref().is_none_or(|(least, _)| value < *least) {
-            let before = best.as_ref().map_or(here, |(least, _)| *least);
-            let is_long = next.d.amax() > LONG * radius;
-            let is_enough = is_long && before - value < ENOUGH * (here - value);
             best = Some((value, next.clone()));
-            if is_enough && k > 0 {
-                break;
-            }
         } else {
             // The program overshoots the surrogate: keep the multipliers, shorten the step.
             damping = if damping == 0.0 { 1.0 } else { damping * 4.0 };
