@@ -21,7 +21,7 @@ use crate::{
     index::{Index, Scale, Sense},
     optimize::{
         archive::{Archive, Stop},
-        problem::{Problem, Values, largest},
+        problem::{Problem, Values, largest, onto_bound},
         solve::Start,
         within::{Aim, Goal, Near, Reached},
     },
@@ -30,6 +30,8 @@ use crate::{
 
 /// Scaled coordinates this close to an end of their range are at it.
 const AT_BOUND: f64 = 1e-6;
+/// Rounding of a logarithm over that of another, which keeps a coordinate off an end of its range.
+const ROUNDING: f64 = 1e-12;
 /// Ends that differ by less than this, scaled, are the same.
 const SAME: f64 = 1e-4;
 
@@ -146,7 +148,7 @@ impl Neighbourhood {
         let x: Vec<f64> = study
             .coordinates(case)
             .into_iter()
-            .map(onto_bound)
+            .map(|x| onto_bound(x, ROUNDING))
             .collect();
         let values = study.evaluate(&x).or_else(|failure| {
             study = with_values(&study, &Start::near(vec![x.clone()]));
@@ -268,19 +270,6 @@ impl Neighbourhood {
             Aim::least(i, n)
         };
         near.best(&aim, &self.optimum, &[])
-    }
-}
-
-/// A coordinate that rounding keeps off an end of its range, put on it.
-fn onto_bound(x: f64) -> f64 {
-    /// Rounding of a logarithm over that of another.
-    const ROUNDING: f64 = 1e-12;
-    if x < ROUNDING {
-        0.0
-    } else if x > 1.0 - ROUNDING {
-        1.0
-    } else {
-        x
     }
 }
 

@@ -4,7 +4,6 @@ use super::study::Study;
 use crate::optimize::{
     archive::Archive,
     local::WIDE,
-    problem::Values,
     solve::{NoDesign, Solved, Start, solve},
 };
 
@@ -50,13 +49,7 @@ pub fn solve_lifted(study: &Study, start: &Start, archive: &Archive) -> Result<L
     let Ok(mut better) = solve(&lifted, &start, archive) else {
         return Ok(plain(solved));
     };
-    let objective = |s: &Solved| {
-        s.point
-            .values
-            .as_ref()
-            .map_or(f64::INFINITY, Values::objective)
-    };
-    let worse = objective(&better) > objective(&solved) + LOSS;
+    let worse = better.point.objective() > solved.point.objective() + LOSS;
     if !better.point.feasible() || (solved.point.feasible() && worse) {
         return Ok(plain(solved));
     }

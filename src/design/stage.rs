@@ -17,7 +17,7 @@ use crate::{
     optimize::{
         archive::{Archive, Stop},
         local::Status,
-        problem::{Failure, Point, Values},
+        problem::{Failure, Point},
         solve::{Effort, NoDesign, Solved, Start},
     },
     parameter::{Parameter, TradeOff},
@@ -243,10 +243,7 @@ impl Candidate {
             return class < others_class;
         }
         if class == 1 && (value - others).abs() <= MET {
-            let objective = |candidate: &Self| {
-                let values = candidate.searched.solved.point.values.as_ref();
-                values.map_or(f64::INFINITY, Values::objective)
-            };
+            let objective = |candidate: &Self| candidate.searched.solved.point.objective();
             return objective(self) < objective(other);
         }
         value < others

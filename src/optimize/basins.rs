@@ -13,17 +13,11 @@
 
 use super::{
     evaluations::near,
-    local::{Found, Status},
-    problem::{Point, Values},
+    local::{ARRIVED, Found, NEIGHBOUR, Status},
+    problem::{Point, SAME},
 };
 
-/// Objectives closer than this are the same: what the tolerance on first-order conditions leaves.
-const SAME: f64 = 2e-5;
-/// Optima this close to each other, in every variable, are the same one.
-const CLOSE: f64 = 5e-3;
-/// A search that stalled belongs to an optimum in this neighbourhood which is as good but for
-/// this.
-const NEIGHBOUR: f64 = 0.1;
+/// Difference of objectives up to which a stalled search belongs to an optimum in its neighbourhood.
 const LEVEL: f64 = 1e-3;
 
 /// A local optimum.
@@ -54,14 +48,9 @@ impl Basins {
         };
         known.searches += 1;
         let rank = |found: &Found| u8::from(found.status != Status::Optimal);
-        let better = rank(&found).cmp(&rank(&known.found)).then_with(|| {
-            if found.point.better_than(&known.found.point) {
-                std::cmp::Ordering::Less
-            } else {
-                std::cmp::Ordering::Greater
-            }
-        });
-        if better.is_lt() {
+        let order = rank(&found).cmp(&rank(&known.found));
+        let order = order.then_with(|| found.point.order(&known.found.point));
+        if order.is_lt() {
             known.found = found;
         }
     }
@@ -93,26 +82,13 @@ impl Basins {
 
     /// The best of all.
     pub fn best(&self) -> Option<&Found> {
-        let better = |a: &&Found, b: &&Found| {
-            if a.point.better_than(&b.point) {
-                std::cmp::Ordering::Less
-            } else {
-                std::cmp::Ordering::Greater
-            }
-        };
-        self.found().min_by(better)
+        self.found().min_by(|a, b| a.point.order(&b.point))
     }
 
     /// The optima, the best first.
     pub fn into_optima(self) -> Vec<Optimum> {
         let mut optima = self.optima;
-        optima.sort_by(|a, b| {
-            if a.found.point.better_than(&b.found.point) {
-                std::cmp::Ordering::Less
-            } else {
-                std::cmp::Ordering::Greater
-            }
-        });
+        optima.sort_by(|a, b| a.found.point.order(&b.found.point));
         optima
     }
 }
@@ -153,20 +129,12 @@ pub(super) fn same(a: &Found, b: &Found) -> bool {
     if p.feasible() != q.feasible() {
         return false;
     }
-    if !p.feasible() || near(&p.x, &q.x, CLOSE) {
+    if !p.feasible() || near(&p.x, &q.x, ARRIVED) {
         return true;
     }
-    let apart = (objective(p) - objective(q)).abs();
+    let apart = (p.objective() - q.objective()).abs();
     let stalled = a.status != Status::Optimal || b.status != Status::Optimal;
     apart < SAME || stalled && apart < LEVEL && near(&p.x, &q.x, NEIGHBOUR)
-}
-
-/// Objective of a design; infinite if it has none.
-pub(super) fn objective(point: &Point) -> f64 {
-    point
-        .values
-        .as_ref()
-        .map_or(f64::INFINITY, Values::objective)
 }
 
 #[cfg(test)]

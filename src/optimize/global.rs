@@ -48,7 +48,7 @@ const START_PENALTY: f64 = 4.0;
 const APART: f64 = 0.12;
 /// An end of a variable's range is far from a design if it is this far, scaled.
 const FAR: f64 = 0.3;
-/// Times that a search goes on from a design better than what the searches that met it came to.
+/// Searches that may begin at the best design met, where the search that met it ended at a worse one.
 const AGAIN_FROM_BEST: usize = 3;
 /// Price of a violation in the merit that argmin watches.
 const PENALTY: f64 = 20.0;
@@ -332,19 +332,12 @@ impl<'p> Solver<Evaluations<'p>, Progress> for &mut Multistart<'_> {
         counted: &mut Counted<Evaluations<'p>>,
         state: Progress,
     ) -> Result<(Progress, Option<KV>), Error> {
-        let evaluations = counted
-            .take_problem()
-            .ok_or_else(|| Error::msg("no problem"))?;
-        let outcome = match self.round(&evaluations) {
-            Ok(Some(round)) => self.follow(round, &evaluations),
-            Ok(None) => {
-                self.is_done = true;
-                Ok(())
-            }
-            Err(stop) => Err(stop),
-        };
-        counted.problem = Some(evaluations);
-        outcome?;
+        let evaluations = counted.problem.as_ref();
+        let evaluations = evaluations.ok_or_else(|| Error::msg("no problem"))?;
+        match self.round(evaluations)? {
+            Some(round) => self.follow(round, evaluations)?,
+            None => self.is_done = true,
+        }
         let Some(best) = self.basins.best() else {
             return Ok((state, None));
         };

@@ -15,7 +15,7 @@ use super::{
     archive::Stop,
     certificate::Certificate,
     evaluations::{Evaluations, near},
-    problem::{FEASIBLE, Failure, Point, Values},
+    problem::{FEASIBLE, Failure, Point, SAME, Values, onto_bound},
     subproblem::{self, Step, Weights},
     surrogate::{Surrogate, along, displacement, pattern, unknown_directions},
 };
@@ -92,14 +92,15 @@ pub const KKT_TOLERANCE: f64 = 1e-4;
 /// First price of a violation, and the highest.
 const PENALTY: f64 = 10.0;
 const HIGHEST_PENALTY: f64 = 1e6;
+/// Interior-point solutions end this far short of a bound: it is put on it.
+const SHORT: f64 = 1e-6;
 /// A violation left by the subproblem below this share of the radius is rounding.
 const NEGLIGIBLE: f64 = 1e-3;
 /// A search this close to a known optimum, in every variable, has arrived at it; so has one that is
 /// in its neighbourhood, behind it by no more than this, and no better.
-const ARRIVED: f64 = 5e-3;
-const NEIGHBOUR: f64 = 0.1;
+pub(super) const ARRIVED: f64 = 5e-3;
+pub(super) const NEIGHBOUR: f64 = 0.1;
 const LEVEL: f64 = 1e-2;
-const NO_BETTER: f64 = 2e-5;
 /// Up to this many variables the first designs determine all curvatures.
 const FEW: usize = 3;
 
@@ -260,7 +261,7 @@ impl Region<'_> {
         let (Some(here), Some(there)) = (height(&self.centre), height(&known.point)) else {
             return false;
         };
-        let is_level = (-NO_BETTER..LEVEL).contains(&(here - there));
+        let is_level = (-SAME..LEVEL).contains(&(here - there));
         let is_near = |within: f64| near(&known.point.x, &self.centre.x, within);
         is_near(NEIGHBOUR) && is_level || known.status == Status::Optimal && is_near(ARRIVED)
     }
@@ -365,7 +366,7 @@ impl Region<'_> {
             .x
             .iter()
             .zip(d)
-            .map(|(x, d)| snap(x + d))
+            .map(|(x, d)| onto_bound(x + d, SHORT))
             .collect();
         let trial = self.evaluations.graded_at(&x)?;
         let gain = self.centre.merit(self.penalty) - trial.merit(self.penalty);
@@ -439,16 +440,4 @@ fn has_gradients(point: &Point) -> bool {
 fn mirrored(centre: &[f64], x: &[f64]) -> Vec<f64> {
     let pairs = centre.iter().zip(x);
     pairs.map(|(c, x)| (2.0 * c - x).clamp(0.0, 1.0)).collect()
-}
-
-/// Interior-point solutions end just short of a bound: puts them on it.
-fn snap(x: f64) -> f64 {
-    const NEAR: f64 = 1e-6;
-    if x < NEAR {
-        0.0
-    } else if x > 1.0 - NEAR {
-        1.0
-    } else {
-        x
-    }
 }

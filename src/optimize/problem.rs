@@ -252,6 +252,8 @@ pub struct Point {
 
 /// Constraint values up to this count as satisfied: a millionth of what is allowed.
 pub const FEASIBLE: f64 = 1e-6;
+/// Objectives closer than this are the same: what the tolerance on first-order conditions leaves.
+pub(super) const SAME: f64 = 2e-5;
 
 impl Point {
     /// Exact penalty merit, finite everywhere: evaluated designs by objective and largest
@@ -272,6 +274,12 @@ impl Point {
         }
     }
 
+    /// Its objective; infinite if it could not be evaluated.
+    pub fn objective(&self) -> f64 {
+        let values = self.values.as_ref();
+        values.map_or(f64::INFINITY, Values::objective)
+    }
+
     /// Whether it could be evaluated and every constraint holds.
     pub fn feasible(&self) -> bool {
         self.values.as_ref().is_ok_and(Values::feasible)
@@ -280,6 +288,11 @@ impl Point {
     /// Feasible designs before infeasible ones, those by their objective and these by their
     /// violation; ties by position, so that the order never depends on the order of evaluation.
     pub fn better_than(&self, other: &Self) -> bool {
+        self.order(other).is_lt()
+    }
+
+    /// The order of [`Point::better_than`], the better first.
+    pub(super) fn order(&self, other: &Self) -> std::cmp::Ordering {
         let rank = |p: &Self| match &p.values {
             Ok(v) if v.feasible() => (0, v.objective()),
             Ok(v) => (1, v.violation()),
@@ -289,7 +302,17 @@ impl Point {
         a.cmp(&b)
             .then(x.total_cmp(&y))
             .then_with(|| by_position(&self.x, &other.x))
-            .is_lt()
+    }
+}
+
+/// A scaled coordinate that is `within` some distance of an end of its range, put on it.
+pub fn onto_bound(x: f64, within: f64) -> f64 {
+    if x < within {
+        0.0
+    } else if x > 1.0 - within {
+        1.0
+    } else {
+        x
     }
 }
 

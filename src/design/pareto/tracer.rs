@@ -1,6 +1,6 @@
 //! Designs of a front's points for one wheel profile.
 
-use std::sync::{Mutex, PoisonError};
+use std::cell::RefCell;
 
 use super::front::{FrontPoint, badness, of_badness};
 use crate::{
@@ -53,7 +53,7 @@ pub(super) struct Tracer<'a> {
 }
 
 /// Designs in different basins, scaled.
-pub(super) struct Pool(Mutex<Vec<Vec<f64>>>);
+pub(super) struct Pool(RefCell<Vec<Vec<f64>>>);
 
 impl Pool {
     /// Designs kept at most; the latest are.
@@ -62,11 +62,11 @@ impl Pool {
     const APART: f64 = 0.15;
 
     pub fn new(given: Vec<f64>) -> Self {
-        Self(Mutex::new(vec![given]))
+        Self(RefCell::new(vec![given]))
     }
 
     fn add(&self, x: &[f64]) {
-        let mut designs = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut designs = self.0.borrow_mut();
         designs.retain(|known| !is_near(known, x));
         designs.push(x.to_vec());
         if designs.len() > Self::KEPT {
@@ -74,11 +74,13 @@ impl Pool {
         }
     }
 
-    /// Designs that are not near those `known`.
-    fn others(&self, known: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let designs = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let is_other = |x: &&Vec<f64>| !known.iter().any(|known| is_near(known, x));
-        designs.iter().filter(is_other).cloned().collect()
+    /// Designs and, behind them, those of the pool that are not near any of them.
+    fn with_others(&self, mut designs: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+        let pool = self.0.borrow();
+        let is_other = |x: &&Vec<f64>| !designs.iter().any(|known| is_near(known, x));
+        let others: Vec<Vec<f64>> = pool.iter().filter(is_other).cloned().collect();
+        designs.extend(others);
+        designs
     }
 }
 
@@ -90,12 +92,7 @@ impl Tracer<'_> {
     /// The best point of an aim, from designs `near` it and from those of all basins seen. `None` if no
     /// design found keeps the bounds, or the run ended before.
     pub fn follow(&self, aim: &Aim, near: Vec<Vec<f64>>) -> Option<FrontPoint> {
-        let others = self.pool.others(&near);
-        let start = Start {
-            radius: WIDE / 2.0,
-            ..Start::near(near).with(others)
-        };
-        self.solve(aim, &start).ok().flatten()
+        self.beside(aim, self.pool.with_others(near))
     }
 
     /// The best point of an aim from designs near it alone.
@@ -117,8 +114,8 @@ impl Tracer<'_> {
         aim: &Aim,
         near: Vec<Vec<f64>>,
     ) -> Result<Option<FrontPoint>, NoDesign> {
-        let others = self.pool.others(&near);
-        self.solve(aim, &self.everywhere.clone().with(near).with(others))
+        let start = self.everywhere.clone();
+        self.solve(aim, &start.with(self.pool.with_others(near)))
     }
 
     /// As [`Tracer::everywhere`], from uniform points and the basins seen: far ends of a point's variables
@@ -128,9 +125,8 @@ impl Tracer<'_> {
     ///
     /// [`NoDesign`] if not one design could be evaluated.
     pub fn verify(&self, aim: &Aim, near: Vec<Vec<f64>>) -> Result<Option<FrontPoint>, NoDesign> {
-        let others = self.pool.others(&near);
         let start = self.everywhere.clone().plainly();
-        self.solve(aim, &start.with(near).with(others))
+        self.solve(aim, &start.with(self.pool.with_others(near)))
     }
 
     /// One point; `None` if no design found keeps the bounds, or the run ended before it converged.
