@@ -133,7 +133,8 @@ fn indices(bencher: Bencher) {
 #[divan::bench]
 fn indices_with_gradients(bencher: Bencher) {
     let case = Case::prototype();
-    bencher.bench_local(|| measure_graded(black_box(&case), &INDICES, &Parameter::TEN));
+    let ten: Vec<Parameter> = Parameter::plain_of_table().collect();
+    bencher.bench_local(|| measure_graded(black_box(&case), &INDICES, &ten));
 }
 
 /// Critical speed and degree curve of 100 × 100 designs in K_b and K_py, a tenth to ten times the

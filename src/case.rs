@@ -3,7 +3,18 @@
 
 use serde::Serialize;
 
-use crate::{track::Track, vehicle::Vehicle, wheel_rail::WheelRail};
+use crate::{
+    track::{MAX_DEGREE, Track},
+    units::{
+        Key,
+        Need::{Optional, Required},
+        Number, Quantity,
+        Range::{Between, Positive, PositiveUpTo},
+        Table, number,
+    },
+    vehicle::Vehicle,
+    wheel_rail::WheelRail,
+};
 
 /// Everything that an evaluation needs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -117,3 +128,31 @@ impl Case {
         }
     }
 }
+
+const RADIANS: f64 = std::f64::consts::PI / 180.0;
+
+/// Numbers of `[service]`.
+#[rustfmt::skip]
+pub static SERVICE: Table<Service> = Table {
+    path: "service",
+    meaning: "How the vehicle is used.",
+    numbers: &[
+        number!("service.speed", "V", Speed, Positive, Required, "operating speed", speed),
+        number!("service.curve", "D", DegreeOfCurve, PositiveUpTo(MAX_DEGREE * RADIANS), Optional("the tightest without flange contact or slip"), "degree of the curve in which forces on the rails are judged", curve),
+        Number {
+            key: Key {
+                path: "service.cant_deficiency",
+                symbol: "φ_d",
+                quantity: Quantity::Angle,
+                meaning: "cant deficiency there",
+                range: Between(-0.2, 0.2),
+                need: Optional("0"),
+                // Its value in force is zero where it is not given.
+                get: |service: &Service| Some(service.cant_deficiency()),
+                set: |service: &mut Service, value| service.cant_deficiency = Some(value),
+            },
+            trailing: None,
+            in_force: |service, _| Some(service.cant_deficiency()),
+        },
+    ],
+};

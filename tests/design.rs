@@ -69,13 +69,13 @@ fn solve_and_check(what: &str, study: &Study, n: usize) -> Vec<f64> {
 fn ride(case: &Case, lateral: bool) -> Study {
     let (frequency, damping_ratio) = if lateral {
         (
-            Parameter::SecondaryLateralFrequency,
-            Parameter::SecondaryLateralDampingRatio,
+            Parameter::SECONDARY_LATERAL_FREQUENCY,
+            Parameter::SECONDARY_LATERAL_DAMPING_RATIO,
         )
     } else {
         (
-            Parameter::SecondaryVerticalFrequency,
-            Parameter::SecondaryVerticalDampingRatio,
+            Parameter::SECONDARY_VERTICAL_FREQUENCY,
+            Parameter::SECONDARY_VERTICAL_DAMPING_RATIO,
         )
     };
     Study::new(case, &[])
@@ -88,8 +88,8 @@ fn primary(case: &Case) -> Study {
     let bending = Interval::from([5e5 * LBF_FT, 1e7 * LBF_FT]);
     let lateral = Interval::from([2e5 * LBF_PER_FT, 5e6 * LBF_PER_FT]);
     Study::new(case, &[])
-        .vary(Parameter::PrimaryBendingStiffness, bending)
-        .vary(Parameter::PrimaryLateralStiffness, lateral)
+        .vary(Parameter::PRIMARY_BENDING_STIFFNESS, bending)
+        .vary(Parameter::PRIMARY_LATERAL_STIFFNESS, lateral)
 }
 
 #[test]
@@ -158,7 +158,7 @@ fn conicity_as_a_continuous_variable() {
                 .demand(0, Index::CriticalSpeed, speed);
         solved(&study).point.values.unwrap().objective()
     };
-    let best = best_of(primary(&case).vary(Parameter::Conicity, Interval::from([0.03, 0.2])));
+    let best = best_of(primary(&case).vary(Parameter::CONICITY, Interval::from([0.03, 0.2])));
     // At least as good as every profile of the table on its own.
     for conicity in [0.05, 0.10, 0.15] {
         let mut case = case.clone();

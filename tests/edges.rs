@@ -338,8 +338,8 @@ fn from_grams_to_gigagrams() {
         w.spin_creep = Some(contact.f22);
         w.longitudinal_creep = Some(contact.f33);
         for key in bogie::spec::keys::case() {
-            if let (1, Some(value)) = (key.quantity.dimension().mass, (key.get)(&case)) {
-                (key.set)(&mut case, scale * value);
+            if let (1, Some(value)) = (key.quantity.dimension().mass, key.get(&case)) {
+                key.set(&mut case, scale * value);
             }
         }
         result(&case).0

@@ -185,11 +185,11 @@ fn ranges_end_where_a_grid_says() {
         let limit = own * rng.random_range(0.9..1.5);
         let study = Study::new(&case, &[])
             .vary(
-                Parameter::SecondaryVerticalFrequency,
+                Parameter::SECONDARY_VERTICAL_FREQUENCY,
                 Interval::from([0.7, 2.0]),
             )
             .vary(
-                Parameter::SecondaryVerticalDampingRatio,
+                Parameter::SECONDARY_VERTICAL_DAMPING_RATIO,
                 Interval::from([0.05, 0.6]),
             )
             .optimise(0, Index::VerticalAcceleration, 0, 1.0)
@@ -265,10 +265,10 @@ fn loss(result: &DesignResult, index: Index) -> f64 {
 /// Σ ln K of the stiffnesses that the design example varies.
 fn stiffness(case: &Case) -> f64 {
     let springs = [
-        Parameter::PrimaryBendingStiffness,
-        Parameter::PrimaryLateralStiffness,
-        Parameter::SecondaryLateralStiffness,
-        Parameter::SecondaryVerticalStiffness,
+        Parameter::PRIMARY_BENDING_STIFFNESS,
+        Parameter::PRIMARY_LATERAL_STIFFNESS,
+        Parameter::SECONDARY_LATERAL_STIFFNESS,
+        Parameter::SECONDARY_VERTICAL_STIFFNESS,
     ];
     springs.iter().map(|spring| spring.get(case).ln()).sum()
 }
@@ -324,13 +324,13 @@ fn the_design_delivered_is_what_it_is_called() {
 fn a_variable_without_gain_keeps_its_value_as_given() {
     let mut spec = problem("intercity-130mph");
     let given = 3e6 * LBF_PER_FT;
-    Parameter::PrimaryLateralStiffness.set(&mut spec.case, given);
+    Parameter::PRIMARY_LATERAL_STIFFNESS.set(&mut spec.case, given);
     spec.design.deliver_within = 0.01;
     let result = run(&spec);
-    let own = Parameter::PrimaryLateralStiffness.get(&result.case);
+    let own = Parameter::PRIMARY_LATERAL_STIFFNESS.get(&result.case);
     assert_eq!(own.to_bits(), given.to_bits());
-    assert!(Parameter::PrimaryLateralStiffness.get(&result.optimum) > 1.2 * given);
-    let free = result.free(Parameter::PrimaryLateralStiffness).unwrap();
+    assert!(Parameter::PRIMARY_LATERAL_STIFFNESS.get(&result.optimum) > 1.2 * given);
+    let free = result.free(Parameter::PRIMARY_LATERAL_STIFFNESS).unwrap();
     assert!(free.ends[0].value < 0.6 * given && free.ends[1].kind == EndKind::Bound);
     // A design given that is an optimum within the loss is delivered as it is.
     spec.case = result.case.clone();

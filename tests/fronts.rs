@@ -24,8 +24,8 @@ fn best_curve(conicity: f64, mph: f64) -> Option<f64> {
     let bending = Interval::from([1e5 * LBF_FT, 2e7 * LBF_FT]);
     let lateral = Interval::from([4e4 * LBF_PER_FT, 5e6 * LBF_PER_FT]);
     let study = Study::new(&case, &[])
-        .vary(Parameter::PrimaryBendingStiffness, bending)
-        .vary(Parameter::PrimaryLateralStiffness, lateral)
+        .vary(Parameter::PRIMARY_BENDING_STIFFNESS, bending)
+        .vary(Parameter::PRIMARY_LATERAL_STIFFNESS, lateral)
         .optimise(0, Index::DegreeCurve, 0, 1.0)
         .demand(0, Index::CriticalSpeed, mph * MPH);
     let archive = Archive::new(&Silent);

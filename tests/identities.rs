@@ -189,8 +189,8 @@ fn scaling_all_forces_changes_no_motion() {
             let is_force = force.iter().any(|kind| own.contains(kind))
                 && !own.contains("ratio")
                 && !own.contains("factor");
-            if let (true, Some(value)) = (is_force, (key.get)(&case)) {
-                (key.set)(&mut scaled, 3.0 * value);
+            if let (true, Some(value)) = (is_force, key.get(&case)) {
+                key.set(&mut scaled, 3.0 * value);
             }
         }
         let [a, b] = [&case, &scaled].map(|case| Evaluation::new(case).unwrap());

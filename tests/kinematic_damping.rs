@@ -13,7 +13,7 @@ use bogie::{
 };
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use support::{assert_ratio, numerics, problem, random_vehicle};
+use support::{assert_ratio, numerics, problem, random_vehicle, ten};
 
 /// `None` if the vehicle diverges.
 fn index(case: &Case) -> Option<f64> {
@@ -37,8 +37,8 @@ enum Over {
 const SWEEPS: [Over; 4] = [
     Over::Conicity,
     Over::Speed,
-    Over::Decade(Parameter::SecondaryLateralStiffness),
-    Over::Decade(Parameter::SecondaryLateralDamping),
+    Over::Decade(Parameter::SECONDARY_LATERAL_STIFFNESS),
+    Over::Decade(Parameter::SECONDARY_LATERAL_DAMPING),
 ];
 
 /// The case a share `t` of the way along a sweep.
@@ -145,7 +145,7 @@ fn derivatives_are_exact() {
             continue;
         }
         let wanted = [Wanted::Index(Index::KinematicDampingRatio)];
-        let Ok(pieces) = measure_graded(&case, &wanted, &Parameter::TEN) else {
+        let Ok(pieces) = measure_graded(&case, &wanted, &ten()) else {
             continue;
         };
         let least = pieces[0]
@@ -159,7 +159,7 @@ fn derivatives_are_exact() {
             continue;
         }
         let gradient = least.gradient.as_ref().unwrap();
-        let numeric: Vec<f64> = Parameter::TEN
+        let numeric: Vec<f64> = ten()
             .into_iter()
             .map(|parameter| {
                 let own = parameter.get(&case);
@@ -173,8 +173,7 @@ fn derivatives_are_exact() {
             })
             .collect();
         let scale = numeric.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
-        for ((parameter, exact), numeric) in Parameter::TEN.into_iter().zip(gradient).zip(&numeric)
-        {
+        for ((parameter, exact), numeric) in ten().into_iter().zip(gradient).zip(&numeric) {
             let exact = exact * parameter.get(&case);
             assert!(
                 (exact - numeric).abs() <= 1e-6 * scale + 1e-9,
@@ -270,12 +269,12 @@ fn overdamped_hunting() {
     let pieces = measure_graded(
         &case,
         &[Wanted::Index(Index::KinematicDampingRatio)],
-        &Parameter::TEN,
+        &ten(),
     )
     .unwrap();
     assert_eq!(pieces[0].len(), 1);
     assert_ratio("index", pieces[0][0].value, 1.0, 1e-15);
-    assert_eq!(pieces[0][0].gradient, Some(vec![0.0; Parameter::TEN.len()]));
+    assert_eq!(pieces[0][0].gradient, Some(vec![0.0; ten().len()]));
 }
 
 /// The truck under a carbody at rest is a vehicle whose carbody weighs without limit and whose rails hold

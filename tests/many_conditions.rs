@@ -50,13 +50,16 @@ fn study(conditions: &[Condition], lateral: bool, bound: f64) -> Study {
     let mut study = Study::new(&Case::prototype(), conditions);
     let (objective, limit) = if lateral {
         study = study
-            .vary(Parameter::SecondaryLateralFrequency, interval(0.5, 2.0))
-            .vary(Parameter::SecondaryLateralDampingRatio, interval(0.08, 0.8));
+            .vary(Parameter::SECONDARY_LATERAL_FREQUENCY, interval(0.5, 2.0))
+            .vary(
+                Parameter::SECONDARY_LATERAL_DAMPING_RATIO,
+                interval(0.08, 0.8),
+            );
         (Index::LateralAcceleration, Index::SecondaryLateralStroke)
     } else {
         study = study
-            .vary(Parameter::PrimaryBendingStiffness, interval(2e5, 3e7))
-            .vary(Parameter::PrimaryLateralStiffness, interval(6e5, 7e7));
+            .vary(Parameter::PRIMARY_BENDING_STIFFNESS, interval(2e5, 3e7))
+            .vary(Parameter::PRIMARY_LATERAL_STIFFNESS, interval(6e5, 7e7));
         (Index::DegreeCurve, Index::CriticalSpeed)
     };
     for condition in 0..study.conditions() {

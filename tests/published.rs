@@ -80,7 +80,7 @@ impl Optimum {
     fn case(&self) -> Case {
         let mut case = Case::prototype();
         case.wheel_rail.conicity = self.conicity;
-        case.vehicle.set_bending_stiffness(self.bending * LBF_FT);
+        Parameter::PRIMARY_BENDING_STIFFNESS.set(&mut case, self.bending * LBF_FT);
         case.vehicle.suspension.primary.lateral_stiffness = self.lateral * LBF_PER_FT;
         case
     }
@@ -91,8 +91,8 @@ impl Optimum {
         let bending = Interval::from([1e5 * LBF_FT, 2e7 * LBF_FT]);
         let lateral = Interval::from([2e4 * LBF_PER_FT, 5e6 * LBF_PER_FT]);
         Study::new(&self.case(), &[])
-            .vary(Parameter::PrimaryBendingStiffness, bending)
-            .vary(Parameter::PrimaryLateralStiffness, lateral)
+            .vary(Parameter::PRIMARY_BENDING_STIFFNESS, bending)
+            .vary(Parameter::PRIMARY_LATERAL_STIFFNESS, lateral)
             .optimise(0, index::Index::DegreeCurve, 0, 1.0)
             .demand(
                 0,

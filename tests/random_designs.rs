@@ -50,13 +50,12 @@ impl Random {
 
     fn vary(mut self, rng: &mut ChaCha8Rng, case: &Case, parameter: Parameter) -> Self {
         let bounds = match parameter {
-            Parameter::Conicity => [0.03, 0.25],
-            Parameter::SecondaryLateralFrequency | Parameter::SecondaryVerticalFrequency => {
+            Parameter::CONICITY => [0.03, 0.25],
+            Parameter::SECONDARY_LATERAL_FREQUENCY | Parameter::SECONDARY_VERTICAL_FREQUENCY => {
                 [0.5, 2.0]
             }
-            Parameter::SecondaryLateralDampingRatio | Parameter::SecondaryVerticalDampingRatio => {
-                [0.08, 0.8]
-            }
+            Parameter::SECONDARY_LATERAL_DAMPING_RATIO
+            | Parameter::SECONDARY_VERTICAL_DAMPING_RATIO => [0.08, 0.8],
             _ => {
                 let own = parameter.get(case);
                 [
@@ -114,12 +113,6 @@ fn in_two_variables(seed: u64) -> Random {
         CriticalSpeed, DegreeCurve, LateralAcceleration, LeastDampingRatio, PrimaryLateralStroke,
         SecondaryLateralStroke, SecondaryVerticalStroke, VerticalAcceleration, WheelsetExcursion,
     };
-    use Parameter::{
-        Conicity, PrimaryBendingStiffness, PrimaryLateralStiffness, PrimaryLongitudinalStiffness,
-        PrimaryVerticalStiffness, SecondaryLateralDamping, SecondaryLateralDampingRatio,
-        SecondaryLateralFrequency, SecondaryLateralStiffness, SecondaryVerticalDampingRatio,
-        SecondaryVerticalFrequency, SecondaryYawBreakawayTorque, SecondaryYawStiffness,
-    };
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let rng = &mut rng;
     let case = &vehicle(rng);
@@ -142,20 +135,20 @@ fn in_two_variables(seed: u64) -> Random {
     match seed % 8 {
         0 => {
             let problem = of("K_b, K_py")
-                .vary(rng, case, PrimaryBendingStiffness)
-                .vary(rng, case, PrimaryLateralStiffness);
+                .vary(rng, case, Parameter::PRIMARY_BENDING_STIFFNESS)
+                .vary(rng, case, Parameter::PRIMARY_LATERAL_STIFFNESS);
             stability(problem, rng)
         }
         1 => {
             let problem = of("f_n, ξ lateral")
-                .vary(rng, case, SecondaryLateralFrequency)
-                .vary(rng, case, SecondaryLateralDampingRatio);
+                .vary(rng, case, Parameter::SECONDARY_LATERAL_FREQUENCY)
+                .vary(rng, case, Parameter::SECONDARY_LATERAL_DAMPING_RATIO);
             ride(problem, rng, lateral)
         }
         2 => {
             let problem = of("f_n, ξ vertical")
-                .vary(rng, case, SecondaryVerticalFrequency)
-                .vary(rng, case, SecondaryVerticalDampingRatio);
+                .vary(rng, case, Parameter::SECONDARY_VERTICAL_FREQUENCY)
+                .vary(rng, case, Parameter::SECONDARY_VERTICAL_DAMPING_RATIO);
             ride(
                 problem,
                 rng,
@@ -164,38 +157,41 @@ fn in_two_variables(seed: u64) -> Random {
         }
         3 => {
             let problem = of("K_sψ, T_sψ")
-                .vary(rng, case, SecondaryYawStiffness)
-                .vary(rng, case, SecondaryYawBreakawayTorque);
+                .vary(rng, case, Parameter::SECONDARY_YAW_STIFFNESS)
+                .vary(rng, case, Parameter::SECONDARY_YAW_BREAKAWAY_TORQUE);
             stability(problem, rng)
         }
         4 => {
-            let problem =
-                of("λ, K_b")
-                    .vary(rng, case, Conicity)
-                    .vary(rng, case, PrimaryBendingStiffness);
+            let problem = of("λ, K_b").vary(rng, case, Parameter::CONICITY).vary(
+                rng,
+                case,
+                Parameter::PRIMARY_BENDING_STIFFNESS,
+            );
             stability(problem, rng)
         }
         5 => {
             let problem = of("K_sy, C_sy")
-                .vary(rng, case, SecondaryLateralStiffness)
-                .vary(rng, case, SecondaryLateralDamping);
+                .vary(rng, case, Parameter::SECONDARY_LATERAL_STIFFNESS)
+                .vary(rng, case, Parameter::SECONDARY_LATERAL_DAMPING);
             ride(problem, rng, lateral).demand(rng, case, LeastDampingRatio)
         }
         6 => {
             let mut problem = of("K_py, K_sy, K_px tied to K_py")
-                .vary(rng, case, PrimaryLateralStiffness)
-                .vary(rng, case, SecondaryLateralStiffness);
-            let ratio = PrimaryLongitudinalStiffness.get(case) / PrimaryLateralStiffness.get(case);
-            let to = PrimaryLateralStiffness;
-            problem.study = problem
-                .study
-                .rule(PrimaryLongitudinalStiffness, Rule::Tied { to, ratio });
+                .vary(rng, case, Parameter::PRIMARY_LATERAL_STIFFNESS)
+                .vary(rng, case, Parameter::SECONDARY_LATERAL_STIFFNESS);
+            let ratio = Parameter::PRIMARY_LONGITUDINAL_STIFFNESS.get(case)
+                / Parameter::PRIMARY_LATERAL_STIFFNESS.get(case);
+            let to = Parameter::PRIMARY_LATERAL_STIFFNESS;
+            problem.study = problem.study.rule(
+                Parameter::PRIMARY_LONGITUDINAL_STIFFNESS,
+                Rule::Tied { to, ratio },
+            );
             ride(problem, rng, [PrimaryLateralStroke, WheelsetExcursion])
         }
         _ => {
             let problem = of("K_pz, ξ vertical")
-                .vary(rng, case, SecondaryVerticalDampingRatio)
-                .vary(rng, case, PrimaryVerticalStiffness);
+                .vary(rng, case, Parameter::SECONDARY_VERTICAL_DAMPING_RATIO)
+                .vary(rng, case, Parameter::PRIMARY_VERTICAL_STIFFNESS);
             ride(
                 problem,
                 rng,
@@ -317,43 +313,38 @@ fn no_design_of_a_grid_beats_what_the_search_gives() {
 
 /// Three and four parameters, where a grid of the same fineness would be out of proportion.
 fn in_more_variables(seed: u64) -> Random {
-    use Parameter::{
-        PrimaryBendingStiffness, PrimaryLateralStiffness, PrimaryVerticalStiffness,
-        SecondaryLateralDampingRatio, SecondaryLateralFrequency, SecondaryVerticalDampingRatio,
-        SecondaryVerticalFrequency, SecondaryYawStiffness,
-    };
     let mut rng = ChaCha8Rng::seed_from_u64(1000 + seed);
     let rng = &mut rng;
     let case = &vehicle(rng);
     let of = |kind: &str| Random::new(1000 + seed, kind, Study::new(case, &[]));
     match seed % 4 {
         0 => of("K_b, K_py, K_sψ")
-            .vary(rng, case, PrimaryBendingStiffness)
-            .vary(rng, case, PrimaryLateralStiffness)
-            .vary(rng, case, SecondaryYawStiffness)
+            .vary(rng, case, Parameter::PRIMARY_BENDING_STIFFNESS)
+            .vary(rng, case, Parameter::PRIMARY_LATERAL_STIFFNESS)
+            .vary(rng, case, Parameter::SECONDARY_YAW_STIFFNESS)
             .optimise(0, Index::DegreeCurve)
             .demand(rng, case, Index::CriticalSpeed),
         1 => of("f_n, ξ, K_pz vertical")
-            .vary(rng, case, SecondaryVerticalFrequency)
-            .vary(rng, case, SecondaryVerticalDampingRatio)
-            .vary(rng, case, PrimaryVerticalStiffness)
+            .vary(rng, case, Parameter::SECONDARY_VERTICAL_FREQUENCY)
+            .vary(rng, case, Parameter::SECONDARY_VERTICAL_DAMPING_RATIO)
+            .vary(rng, case, Parameter::PRIMARY_VERTICAL_STIFFNESS)
             .optimise(0, Index::VerticalAcceleration)
             .demand(rng, case, Index::SecondaryVerticalStroke)
             .demand(rng, case, Index::WheelLoadVariation),
         2 => of("f_n, ξ lateral, f_n, ξ vertical")
-            .vary(rng, case, SecondaryLateralFrequency)
-            .vary(rng, case, SecondaryLateralDampingRatio)
-            .vary(rng, case, SecondaryVerticalFrequency)
-            .vary(rng, case, SecondaryVerticalDampingRatio)
+            .vary(rng, case, Parameter::SECONDARY_LATERAL_FREQUENCY)
+            .vary(rng, case, Parameter::SECONDARY_LATERAL_DAMPING_RATIO)
+            .vary(rng, case, Parameter::SECONDARY_VERTICAL_FREQUENCY)
+            .vary(rng, case, Parameter::SECONDARY_VERTICAL_DAMPING_RATIO)
             .optimise(0, Index::LateralAcceleration)
             .optimise(1, Index::VerticalAcceleration)
             .demand(rng, case, Index::SecondaryLateralStroke)
             .demand(rng, case, Index::SecondaryVerticalStroke),
         _ => of("f_n, ξ lateral, K_b, K_py")
-            .vary(rng, case, SecondaryLateralFrequency)
-            .vary(rng, case, SecondaryLateralDampingRatio)
-            .vary(rng, case, PrimaryBendingStiffness)
-            .vary(rng, case, PrimaryLateralStiffness)
+            .vary(rng, case, Parameter::SECONDARY_LATERAL_FREQUENCY)
+            .vary(rng, case, Parameter::SECONDARY_LATERAL_DAMPING_RATIO)
+            .vary(rng, case, Parameter::PRIMARY_BENDING_STIFFNESS)
+            .vary(rng, case, Parameter::PRIMARY_LATERAL_STIFFNESS)
             .optimise(0, Index::DegreeCurve)
             .optimise(1, Index::LateralAcceleration)
             .demand(rng, case, Index::CriticalSpeed)

@@ -185,8 +185,8 @@ fn briefly_unstable() -> Vec<(String, Case)> {
     .map(|lateral| {
         let mut case = Case::prototype();
         case.wheel_rail.conicity = 0.10;
-        Parameter::PrimaryBendingStiffness.set(&mut case, 2e7 * LBF_FT);
-        Parameter::PrimaryLateralStiffness.set(&mut case, lateral * LBF_PER_FT);
+        Parameter::PRIMARY_BENDING_STIFFNESS.set(&mut case, 2e7 * LBF_FT);
+        Parameter::PRIMARY_LATERAL_STIFFNESS.set(&mut case, lateral * LBF_PER_FT);
         (format!("K_py {lateral} lbf/ft"), case)
     })
     .collect()

@@ -67,7 +67,7 @@ fn numbers(page: &mut String, table: &keys::Table) {
             key.name(),
             symbol(key.symbol),
             key.meaning,
-            prototype(key.quantity, (key.get)(&case)),
+            prototype(key.quantity, key.get(&case)),
             allowed(key.range, key.quantity),
             default(key.need),
         );
@@ -134,7 +134,7 @@ fn design(page: &mut String) {
     let case = Case::prototype();
     *page +=
         "| key | symbol | meaning | prototype | allowed | relation |\n|---|---|---|---|---|---|\n";
-    for parameter in Parameter::ALL {
+    for parameter in Parameter::of_table() {
         let quantity = parameter.quantity();
         let _ = writeln!(
             page,
@@ -147,6 +147,7 @@ fn design(page: &mut String) {
             parameter.relation().unwrap_or("–"),
         );
     }
+    *page += "\nEvery other number of the vehicle, of wheel and rail, and of the passenger points may vary too, by its path: `vehicle.carbody.mass = [\"38 t\", \"46 t\"]`, or `suspension.secondary.air_spring.orifice_damping`; numbers of the trailing end by `trailing` and their path. Numbers of `[suspension.primary]` and `[suspension.secondary]` have short names as in the table: `primary_vertical_damping`, `secondary_yaw_damping`.\n";
     *page += "\n";
 }
 
@@ -188,7 +189,7 @@ fn quantities() -> String {
 
 fn reference() -> String {
     let mut page = quantities();
-    for table in TABLES {
+    for table in TABLES.iter() {
         let _ = writeln!(page, "## `[{}]`\n\n{}\n", table.path, table.meaning);
         numbers(&mut page, table);
         match table.path {
@@ -219,7 +220,14 @@ fn the_page_is_current() {
 #[test]
 fn the_page_is_complete() {
     let page = reference();
-    for path in keys::paths() {
+    let in_table: Vec<&str> = Parameter::of_table().map(Parameter::path).collect();
+    let stated =
+        |path: &&str| path.starts_with("design.") && Parameter::named(&path[7..]).is_some();
+    let by_path = |path: &&str| stated(path) && !in_table.contains(path);
+    // Numbers of the trailing end stand where those of the leading one do.
+    let is_trailing = |path: &&str| path.starts_with("trailing.");
+    let paths = keys::paths().into_iter();
+    for path in paths.filter(|path| !by_path(path) && !is_trailing(path)) {
         let (table, name) = match path.rsplit_once('.') {
             Some((table, name)) => (table, name.to_owned()),
             None => (path, format!("{path}.NAME")),

@@ -47,8 +47,8 @@ fn any_vehicle(rng: &mut ChaCha8Rng, factor: f64) -> Case {
     let mut case = random_vehicle(rng, factor);
     let nearer = random_vehicle(rng, factor.min(1.5));
     for key in keys::case().filter(|key| key.quantity == Quantity::Length) {
-        if let Some(length) = (key.get)(&nearer) {
-            (key.set)(&mut case, length);
+        if let Some(length) = key.get(&nearer) {
+            key.set(&mut case, length);
         }
     }
     let body = &mut case.vehicle.carbody;
@@ -201,7 +201,7 @@ fn every_number_of_curves_modes_and_spectra_is_a_number() {
 fn spec_text(case: &Case, unit: impl Fn(Quantity) -> DisplayUnit) -> String {
     let mut text = format!("service.track = \"{}\"\n", case.service.track.name);
     for key in keys::case() {
-        let Some(si) = (key.get)(case) else { continue };
+        let Some(si) = key.get(case) else { continue };
         let unit = unit(key.quantity);
         let value = unit.of(si);
         let value = match key.quantity {
@@ -237,7 +237,7 @@ fn systems_of_units_agree() {
                 "vehicle {seed}"
             );
             for key in keys::case() {
-                match [&si, &us].map(|spec| (key.get)(&spec.case)) {
+                match [&si, &us].map(|spec| key.get(&spec.case)) {
                     // A few roundings of 1e-16 each.
                     [Some(si), Some(us)] => {
                         assert!(
@@ -261,10 +261,10 @@ fn scaled(case: &Case, mass: f64, time: f64) -> Case {
     let length = time * time;
     let mut scaled = explicit(case);
     for key in keys::case() {
-        if let Some(si) = (key.get)(&scaled) {
+        if let Some(si) = key.get(&scaled) {
             let d = key.quantity.dimension();
             let factor = mass.powi(d.mass) * length.powi(d.length) * time.powi(d.time);
-            (key.set)(&mut scaled, factor * si);
+            key.set(&mut scaled, factor * si);
         }
     }
     let model = &mut scaled.model;

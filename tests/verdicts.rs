@@ -62,9 +62,9 @@ fn the_objective_decides_among_the_designs_of_least_violation() {
     assert!(!result.met());
     let ratio = |parameter: Parameter| parameter.get(&result.case);
     // 0.223 and 0.0662 g by a dense search over both ratios, in three digits.
-    let lateral = ratio(Parameter::SecondaryLateralDampingRatio);
+    let lateral = ratio(Parameter::SECONDARY_LATERAL_DAMPING_RATIO);
     assert!((lateral - 0.223).abs() < 1e-3, "{lateral}");
-    let vertical = ratio(Parameter::SecondaryVerticalDampingRatio);
+    let vertical = ratio(Parameter::SECONDARY_VERTICAL_DAMPING_RATIO);
     assert!(vertical > 0.6 - 1e-4, "{vertical}");
     let acceleration = value(&result.case, Index::LateralAcceleration).unwrap() / G;
     assert!((acceleration - 0.0662).abs() < 5e-5, "{acceleration}");
@@ -80,13 +80,13 @@ fn the_objective_decides_among_the_designs_of_least_violation() {
 fn a_limit_without_variable_is_named_and_leaves_the_rest_alone() {
     let mut spec = read("limit-without-variable");
     let result = run(&spec);
-    let ratio = Parameter::SecondaryLateralDampingRatio.get(&result.case);
+    let ratio = Parameter::SECONDARY_LATERAL_DAMPING_RATIO.get(&result.case);
     assert!((ratio - 0.219).abs() < 1e-3, "{ratio}");
     let conflict = result.conflict.unwrap();
     assert!(conflict.demands.iter().all(|opposed| !opposed.influenced));
     spec.demands.remove(Index::SecondaryVerticalStroke);
     let without = run(&spec);
-    let alone = Parameter::SecondaryLateralDampingRatio.get(&without.optimum);
+    let alone = Parameter::SECONDARY_LATERAL_DAMPING_RATIO.get(&without.optimum);
     // 1e-4: the tolerance on first-order conditions, on a flat optimum.
     assert!((ratio / alone - 1.0).abs() < 1e-3, "{ratio} {alone}");
     assert!(without.met());
@@ -120,9 +120,9 @@ fn a_run_cut_short_delivers_a_design_within_the_bounds() {
     let result = design(&spec, &archive).unwrap();
     assert_eq!(status::of_run(&result), "ended-early");
     let has = |parameter: Parameter| parameter.get(&result.case);
-    assert!((has(Parameter::PrimaryLateralStiffness) / 2e6 - 1.0).abs() < 1e-9);
-    assert!((has(Parameter::SecondaryLateralDampingRatio) - 0.3).abs() < 1e-12);
-    assert!((has(Parameter::Conicity) - 0.10).abs() < 1e-12);
+    assert!((has(Parameter::PRIMARY_LATERAL_STIFFNESS) / 2e6 - 1.0).abs() < 1e-9);
+    assert!((has(Parameter::SECONDARY_LATERAL_DAMPING_RATIO) - 0.3).abs() < 1e-12);
+    assert!((has(Parameter::CONICITY) - 0.10).abs() < 1e-12);
 }
 
 /// Adhesion in a curve of 300 m cannot be assessed; what can be met is met by a design that runs.
@@ -189,8 +189,8 @@ fn parameters_out_of_use_are_not_designed() {
     assert_eq!(
         vertical.unused,
         [
-            Parameter::SecondaryVerticalFrequency,
-            Parameter::SecondaryVerticalDampingRatio
+            Parameter::SECONDARY_VERTICAL_FREQUENCY,
+            Parameter::SECONDARY_VERTICAL_DAMPING_RATIO
         ]
     );
 }

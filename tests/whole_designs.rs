@@ -103,18 +103,18 @@ fn a_tied_parameter_stays_tied() {
     for case in joint.into_iter().chain([&result.case]) {
         let ratio = |a: Parameter, b: Parameter| a.get(case) / b.get(case);
         let primary = ratio(
-            Parameter::PrimaryLongitudinalStiffness,
-            Parameter::PrimaryLateralStiffness,
+            Parameter::PRIMARY_LONGITUDINAL_STIFFNESS,
+            Parameter::PRIMARY_LATERAL_STIFFNESS,
         );
         assert_ratio("K_px / K_py", primary, 0.7, 1e-12);
         let secondary = ratio(
-            Parameter::SecondaryVerticalStiffness,
-            Parameter::SecondaryLateralStiffness,
+            Parameter::SECONDARY_VERTICAL_STIFFNESS,
+            Parameter::SECONDARY_LATERAL_STIFFNESS,
         );
         assert_ratio("K_sz / K_sy", secondary, 1.5, 1e-12);
     }
-    let own = Parameter::PrimaryLateralStiffness.get(&Case::prototype());
-    let chosen = Parameter::PrimaryLateralStiffness.get(&result.case);
+    let own = Parameter::PRIMARY_LATERAL_STIFFNESS.get(&Case::prototype());
+    let chosen = Parameter::PRIMARY_LATERAL_STIFFNESS.get(&result.case);
     assert!((chosen / own - 1.0).abs() > 0.01, "nothing was chosen");
 }
 
@@ -177,11 +177,11 @@ fn a_failed_evaluation_is_counted_and_never_returned() {
     case.service.speed = 150.0 * MPH;
     let study = Study::new(&case, &[])
         .vary(
-            Parameter::PrimaryBendingStiffness,
+            Parameter::PRIMARY_BENDING_STIFFNESS,
             Interval::from([1e5 * LBF_FT, 2e7 * LBF_FT]),
         )
         .vary(
-            Parameter::SecondaryLateralDampingRatio,
+            Parameter::SECONDARY_LATERAL_DAMPING_RATIO,
             Interval::from([0.05, 0.8]),
         )
         .optimise(0, Index::LateralAcceleration, 0, 1.0)

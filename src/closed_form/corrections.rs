@@ -35,9 +35,9 @@ mod tests {
     #[test]
     fn variations_of_example_2() {
         let base = Vehicle::prototype();
-        let mut light_wheelsets = base;
+        let mut light_wheelsets = base.clone();
         light_wheelsets.wheelset.mass *= 0.7;
-        let mut light = light_wheelsets;
+        let mut light = light_wheelsets.clone();
         light.truck.mass *= 0.7;
         // The report prints 150.5 for √(490/418) × 139 = 150.497.
         assert!((for_mass(139.0, &base, &light_wheelsets) - 150.5).abs() < 0.05);

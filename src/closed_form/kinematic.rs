@@ -124,7 +124,7 @@ mod tests {
             ..WheelRail::default().contact()
         };
         let base = Vehicle::prototype();
-        let mut stiff = base;
+        let mut stiff = base.clone();
         for k in [
             &mut stiff.suspension.primary.longitudinal_stiffness,
             &mut stiff.suspension.primary.lateral_stiffness,
@@ -133,7 +133,7 @@ mod tests {
         ] {
             *k *= 4.0;
         }
-        let mut heavy = base;
+        let mut heavy = base.clone();
         for m in [
             &mut heavy.wheelset.mass,
             &mut heavy.wheelset.yaw_inertia,

@@ -154,8 +154,11 @@ fn power_of_stiffness(parameter: Parameter) -> Option<f64> {
 fn with_bits_of(given: &Case, mut case: Case) -> Case {
     /// From a constant to a scaled coordinate and back, through frequencies and damping ratios.
     const ROUNDING: f64 = 1e-12;
-    for constant in Parameter::TEN {
-        let (own, kept) = (constant.get(&case), constant.get(given));
+    for constant in Parameter::plain() {
+        let key = constant.key_of_constant();
+        let (Some(own), Some(kept)) = (key.get(&case), key.get(given)) else {
+            continue;
+        };
         if (own - kept).abs() <= ROUNDING * kept.abs() {
             constant.set(&mut case, kept);
         }

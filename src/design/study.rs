@@ -35,6 +35,13 @@ pub enum Rule {
     },
 }
 
+/// A variable or a rule, by its number.
+#[derive(Debug, Clone, Copy)]
+enum Setting {
+    Variable(usize),
+    Rule(usize),
+}
+
 /// The study as a problem for the optimiser.
 #[derive(Debug, Clone)]
 pub struct Study {
@@ -45,6 +52,8 @@ pub struct Study {
     parameters: Vec<Parameter>,
     variables: Vec<Variable>,
     rules: Vec<(Parameter, Rule)>,
+    /// The order in which variables and rules are set.
+    settings: Vec<Setting>,
     terms: Vec<Term>,
     /// The critical speed as a variable of its own, the last one, see [`Study::lifted`].
     is_lifted: bool,
@@ -67,6 +76,7 @@ impl Study {
             parameters: Vec::new(),
             variables: Vec::new(),
             rules: Vec::new(),
+            settings: Vec::new(),
             terms: Vec::new(),
             is_lifted: false,
         }
@@ -76,7 +86,7 @@ impl Study {
     /// parameter is the conicity, between whose rows the report's table is linear.
     #[must_use]
     pub fn vary(mut self, parameter: Parameter, bounds: Interval) -> Self {
-        let logarithmic = bounds.lower > 0.0 && parameter != Parameter::Conicity;
+        let logarithmic = bounds.lower > 0.0 && parameter != Parameter::CONICITY;
         self.parameters.push(parameter);
         self.variables.push(Variable {
             name: parameter.words(),
@@ -89,7 +99,7 @@ impl Study {
                 optimiser::Scale::Linear
             },
         });
-        self
+        self.in_order()
     }
 
     /// The study with some of its variables, by number, no longer free: each keeps its value in the
@@ -105,13 +115,25 @@ impl Study {
                 self.rules.push((parameter, fixed));
             }
         }
-        self
+        self.in_order()
     }
 
     /// Sets a parameter by a rule.
     #[must_use]
     pub fn rule(mut self, parameter: Parameter, rule: Rule) -> Self {
         self.rules.push((parameter, rule));
+        self.in_order()
+    }
+
+    /// The study with its variables and rules in the order in which they are set.
+    fn in_order(mut self) -> Self {
+        let variables = self.parameters.iter().enumerate();
+        let variables = variables.map(|(i, p)| (p.setting_order(), Setting::Variable(i)));
+        let rules = self.rules.iter().enumerate();
+        let rules = rules.map(|(i, (p, _))| (p.setting_order(), Setting::Rule(i)));
+        let mut all: Vec<_> = variables.chain(rules).collect();
+        all.sort_by_key(|(order, _)| *order);
+        self.settings = all.into_iter().map(|(_, setting)| setting).collect();
         self
     }
 
@@ -285,16 +307,17 @@ impl Study {
         let mut case = self.base.clone();
         // A rule may depend on what is set after it, and that on the next.
         for _ in 0..=self.rules.len().max(1) {
-            for parameter in Parameter::ALL {
-                if let Some(i) = self.parameters.iter().position(|p| *p == parameter) {
-                    parameter.set(&mut case, values[i]);
-                }
-                if let Some((_, rule)) = self.rules.iter().find(|(p, _)| *p == parameter) {
-                    let value = match rule {
-                        Rule::Fixed(value) => *value,
-                        Rule::Tied { to, ratio } => ratio * to.get(&case),
-                    };
-                    parameter.set(&mut case, value);
+            for setting in &self.settings {
+                match *setting {
+                    Setting::Variable(i) => self.parameters[i].set(&mut case, values[i]),
+                    Setting::Rule(i) => {
+                        let (parameter, rule) = self.rules[i];
+                        let value = match rule {
+                            Rule::Fixed(value) => value,
+                            Rule::Tied { to, ratio } => ratio * to.get(&case),
+                        };
+                        parameter.set(&mut case, value);
+                    }
                 }
             }
         }

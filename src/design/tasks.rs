@@ -83,10 +83,7 @@ impl<'a> Tasks<'a> {
         let mut case = given.clone();
         // A rule may depend on what is set after it, and that on the next.
         for _ in 0..=self.space.parameters.len().max(1) {
-            for parameter in Parameter::ALL {
-                let Some(freedom) = self.space.freedom(parameter) else {
-                    continue;
-                };
+            for (parameter, freedom) in self.space.in_setting_order() {
                 let value = parameter.get(&case);
                 let allowed = match freedom {
                     Freedom::Between(bounds) => value.clamp(bounds.lower, bounds.upper),
@@ -122,7 +119,7 @@ impl<'a> Tasks<'a> {
     /// early which others have no hope. None to choose from: the case's own.
     pub fn profiles(&self, case: &Case) -> Vec<f64> {
         let own = case.wheel_rail.conicity;
-        let mut profiles = match self.space.freedom(Parameter::Conicity) {
+        let mut profiles = match self.space.freedom(Parameter::CONICITY) {
             Some(Freedom::Choices(choices)) => choices.clone(),
             _ => vec![own],
         };

@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use super::Row;
+use super::{Row, parts};
 
 /// ```math
 /// M q̈ + (C0 + C1/V + C2 V) q̇ + K q = −(C0u + C1u/V + C2u V) u̇ − K_u u
@@ -47,6 +47,13 @@ impl LinearSystem {
             damping: [zero.clone(), zero.clone(), zero],
             mirrored: Vec::new(),
             alike: Vec::new(),
+        }
+    }
+
+    /// Takes note of two groups of coordinates, counterparts of each other, if they are alike.
+    pub fn find_alike(&mut self, pairs: Vec<[usize; 2]>) {
+        if parts::are_alike(self, &pairs) {
+            self.alike = pairs;
         }
     }
 

@@ -4,6 +4,7 @@ mod balance;
 pub mod curving;
 mod eigen;
 mod eigenpairs;
+pub mod element;
 pub mod elimination;
 mod forced;
 pub mod lateral;
@@ -11,6 +12,7 @@ mod linear_system;
 mod parts;
 mod row;
 mod simultaneous;
+mod suspension;
 mod tangent;
 pub mod vertical;
 

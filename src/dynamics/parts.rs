@@ -72,17 +72,25 @@ pub(super) fn held_apart(system: &LinearSystem, v: f64) -> Option<[DMatrix<f64>;
     Some([one, rest].map(matrix))
 }
 
-/// The first of the two parts of a system that are alike, with all other coordinates held, at speed `v`,
-/// m/s: its coordinates' numbers in the system, and its own equations, whose damping is that at `v`
-/// whatever the speed. The whole system if no parts are alike.
-pub(super) fn one_alike(system: &LinearSystem, v: f64) -> (Vec<usize>, LinearSystem) {
-    let one: Vec<usize> = if system.alike.is_empty() {
-        (0..system.order()).collect()
-    } else {
-        system.alike.iter().map(|pair| pair[0]).collect()
-    };
-    let held = alone(system, [&system.stiffness, &system.damping_at(v)], &one);
-    (one, held)
+/// Some coordinates of a system with all others held, at speed `v`, m/s: the equations of that part, whose damping
+/// is that at `v` whatever the speed.
+pub(super) fn held(system: &LinearSystem, v: f64, part: &[usize]) -> LinearSystem {
+    alone(system, [&system.stiffness, &system.damping_at(v)], part)
+}
+
+/// Share of the geometric mean of two entries' sizes by which they may differ and yet be the same.
+const SAME: f64 = 1e-12;
+
+/// Whether two groups of coordinates have the same masses, stiffness and damping among themselves.
+pub(super) fn are_alike(system: &LinearSystem, pairs: &[[usize; 2]]) -> bool {
+    let same = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
+    let matrices = || std::iter::once(&system.stiffness).chain(&system.damping);
+    pairs.iter().all(|[i, j]| {
+        same(system.mass[*i], system.mass[*j])
+            && pairs
+                .iter()
+                .all(|[k, l]| matrices().all(|matrix| same(matrix[(*i, *k)], matrix[(*j, *l)])))
+    })
 }
 
 /// Some coordinates of a system with stiffness `k` and damping `c`, all others held.

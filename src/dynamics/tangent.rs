@@ -1,4 +1,4 @@
-//! Derivatives of a model's equations by a design constant.
+//! Derivatives of a model's equations by a number of the case.
 
 use nalgebra::{Complex, DVector};
 
@@ -11,7 +11,7 @@ pub struct SystemTangent {
     pub entries: Vec<TangentEntry>,
 }
 
-/// Derivative of one entry of K and of C0, C1, C2.
+/// Derivative of one entry of K, of C0, C1, C2, and of M.
 #[derive(Debug, Clone, Copy)]
 pub struct TangentEntry {
     /// Row, a coordinate.
@@ -22,6 +22,8 @@ pub struct TangentEntry {
     pub k: f64,
     /// Of C0, C1, C2.
     pub c: [f64; 3],
+    /// Of M.
+    pub m: f64,
 }
 
 impl TangentEntry {
@@ -38,6 +40,10 @@ pub struct ForcedTangent {
     pub system: SystemTangent,
     /// Of its outputs; `None` for those that stay as they are.
     pub outputs: Vec<Option<Output>>,
+    /// Of the distance of each wheelset behind the first, m.
+    pub lags: [f64; 4],
+    /// Of the scale of each excitation, over the scale.
+    pub scales: Vec<f64>,
 }
 
 /// Sums of this share of their terms are rounding.
@@ -74,24 +80,28 @@ impl SystemTangent {
             });
             weighted.collect()
         });
+        let masses = |i: usize| sum(systems.iter().map(move |(w, system)| (*w, system.mass[i])));
         let mut entries = Vec::new();
         for at in 0..systems[0].1.stiffness.len() {
             let [k, c0, c1, c2] = matrices
                 .each_ref()
                 .map(|matrix| sum(matrix.iter().map(|(w, values)| (*w, values[at]))));
-            if [k, c0, c1, c2].iter().any(|change| *change != 0.0) {
+            let (row, column) = (at % rows, at / rows);
+            let m = if row == column { masses(row) } else { 0.0 };
+            if [k, c0, c1, c2, m].iter().any(|change| *change != 0.0) {
                 entries.push(TangentEntry {
-                    row: at % rows,
-                    column: at / rows,
+                    row,
+                    column,
                     k,
                     c: [c0, c1, c2],
+                    m,
                 });
             }
         }
         Self { entries }
     }
 
-    /// wᴴ (∂K + s ∂C(V)) x over the coordinates.
+    /// wᴴ (∂K + s ∂C(V) + s² ∂M) x over the coordinates.
     pub fn between(
         &self,
         left: &DVector<Complex<f64>>,
@@ -103,7 +113,7 @@ impl SystemTangent {
         let of_coordinates = self.entries.iter().filter(|entry| entry.column < n);
         of_coordinates
             .map(|entry| {
-                let d = s * entry.damping_at(v) + entry.k;
+                let d = s * (entry.damping_at(v) + s * entry.m) + entry.k;
                 left[entry.row].conj() * d * right[entry.column]
             })
             .sum()
@@ -111,8 +121,16 @@ impl SystemTangent {
 }
 
 impl ForcedTangent {
-    /// Weighted sum of models of one structure, with weights that add up to zero.
-    pub fn of(models: &[(f64, &ForcedModel)]) -> Self {
+    /// Weighted sum of models, with weights that add up to zero; `None` if they do not have the same number of
+    /// coordinates.
+    pub fn of(models: &[(f64, &ForcedModel)]) -> Option<Self> {
+        let order = models[0].1.system.order();
+        if models
+            .iter()
+            .any(|(_, model)| model.system.order() != order)
+        {
+            return None;
+        }
         let systems: Vec<(f64, &LinearSystem)> = models
             .iter()
             .map(|(w, model)| (*w, &model.system))
@@ -148,9 +166,18 @@ impl ForcedTangent {
             let changes = rows.iter().any(|row| !row.terms().is_empty());
             changes.then_some(output)
         });
-        Self {
+        let first = models[0].1;
+        let scale = |k: usize| {
+            let change = sum(models
+                .iter()
+                .map(|(w, model)| (*w, model.excitations[k].scale)));
+            change / first.excitations[k].scale
+        };
+        Some(Self {
             outputs: outputs.collect(),
             system: SystemTangent::of(&systems),
-        }
+            lags: std::array::from_fn(|i| sum(models.iter().map(|(w, model)| (*w, model.lags[i])))),
+            scales: (0..first.excitations.len()).map(scale).collect(),
+        })
     }
 }

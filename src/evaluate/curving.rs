@@ -176,7 +176,7 @@ fn affine(
         ),
         Limit::Slip(i, side) => {
             let [p, q] = model.creep_forces(segment, i, side);
-            (p, q, model.adhesion_limit(side))
+            (p, q, model.adhesion_limit(i, side))
         }
     }
 }

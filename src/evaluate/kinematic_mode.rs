@@ -75,13 +75,15 @@ pub struct KinematicMode {
     pub damping_ratio: f64,
     /// Damping ratio of that motion itself.
     pub own_damping_ratio: f64,
-    /// The truck's motions with Im s ≥ 0, the slowest first.
+    /// Motions of each truck with Im s ≥ 0, the slowest first; of one truck where both are alike.
     pub motions: Vec<TruckMotion>,
 }
 
 /// A motion of a truck under a carbody at rest.
 #[derive(Debug, Clone, Copy)]
 pub struct TruckMotion {
+    /// Number of the truck; 0 stands for both where they are alike.
+    pub truck: usize,
     /// s, rad/s.
     pub eigenvalue: Complex<f64>,
     /// Distance from the band of kinematic motion, in ln f: negative below it.
@@ -133,20 +135,20 @@ impl KinematicMode {
     /// [`EigenError`] if eigenvalues cannot be had.
     pub fn new(model: &LateralModel, case: &Case, speed: f64) -> Result<Option<Self>, EigenError> {
         let band = KinematicBand::new(case, speed);
-        let (_, truck) = model.one_truck(speed);
-        let mut values = eigenvalues(truck.state_matrix(speed))?;
-        if diverge(&values) {
-            return Ok(None);
-        }
-        values.retain(|s| s.im >= 0.0);
-        values.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
-        let motions: Vec<TruckMotion> = values
-            .into_iter()
-            .map(|s| TruckMotion {
+        let mut motions: Vec<TruckMotion> = Vec::new();
+        for (truck, (_, held)) in model.trucks(speed).iter().enumerate() {
+            let mut values = eigenvalues(held.state_matrix(speed))?;
+            if diverge(&values) {
+                return Ok(None);
+            }
+            values.retain(|s| s.im >= 0.0);
+            values.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
+            motions.extend(values.into_iter().map(|s| TruckMotion {
+                truck,
                 eigenvalue: s,
                 outside: band.outside(size(s) / TAU),
-            })
-            .collect();
+            }));
+        }
         let counts = motions
             .iter()
             .min_by(|a, b| a.damping_ratio().total_cmp(&b.damping_ratio()))
@@ -176,27 +178,27 @@ impl KinematicMode {
         speed: f64,
     ) -> Option<Vec<Vec<f64>>> {
         let system = &model.forced.system;
-        let (numbers, truck) = model.one_truck(speed);
-        let damping = truck.damping_at(speed);
-        let whole = |part: &DVector<Complex<f64>>| {
-            let mut whole = DVector::zeros(system.order());
-            for (&number, &value) in numbers.iter().zip(part.iter()) {
-                whole[number] = value;
-            }
-            whole
-        };
+        let trucks = model.trucks(speed);
         // Vectors that are zero where coordinates are held leave all of the model but the truck out.
-        let changes = |s: Complex<f64>| {
-            let mode = Mode::at(&truck, &damping, s)?;
+        let changes = |motion: &TruckMotion| {
+            let (numbers, truck) = &trucks[motion.truck];
+            let whole = |part: &DVector<Complex<f64>>| {
+                let mut whole = DVector::zeros(system.order());
+                for (&number, &value) in numbers.iter().zip(part.iter()) {
+                    whole[number] = value;
+                }
+                whole
+            };
+            let mode = Mode::at(truck, &truck.damping_at(speed), motion.eigenvalue)?;
             let mode = Mode {
-                eigenvalue: s,
+                eigenvalue: motion.eigenvalue,
                 shape: whole(&mode.shape),
                 left: whole(&mode.left),
             };
             Some(modes::by_constants(system, tangents, speed, &mode))
         };
         let derivatives = self.motions.iter().map(|motion| {
-            let all = changes(motion.eigenvalue)?.into_iter().zip(band);
+            let all = changes(motion)?.into_iter().zip(band);
             Some(
                 all.map(|(change, band)| motion.change(change, *band))
                     .collect(),

@@ -229,7 +229,7 @@ impl LateralMode {
 }
 
 fn carbody_shape(model: &LateralModel, mode: &Mode) -> LateralShape {
-    let q = model.coordinates;
+    let q = &model.coordinates;
     let index = |of: Coordinate| (0..q.len()).find(|&i| q.coordinate(i) == of).unwrap_or(0);
     let [y, psi, phi] = [
         Coordinate::CarbodyLateral,

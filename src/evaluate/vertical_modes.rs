@@ -57,7 +57,7 @@ impl VerticalShape {
             Coordinate::TruckHeave(_) => Self::TruckHeave,
             Coordinate::TruckRoll(_) => Self::TruckRoll,
             Coordinate::TruckPitch(_) => Self::TruckPitch,
-            Coordinate::AirSpring(_) => return None,
+            Coordinate::Inner(_) => return None,
         })
     }
 

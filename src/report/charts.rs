@@ -73,11 +73,7 @@ pub fn figures(
 
 /// Marks the design as given on a panel over two parameters.
 fn given(panel: &mut Panel, given: &Case, design: &Case) {
-    let parameter = |axis: &Axis| {
-        Parameter::ALL
-            .into_iter()
-            .find(|p| p.column() == axis.column)
-    };
+    let parameter = |axis: &Axis| Parameter::all().find(|p| p.column() == axis.column);
     let (Some(x), Some(y)) = (parameter(&panel.x), parameter(&panel.y)) else {
         return;
     };

@@ -221,7 +221,7 @@ fn design(front: &Front, i: usize, point: &FrontPoint) -> Markup {
             vec![index.words().into(), String::new(), si, us]
         })
         .collect();
-    rows.extend(Parameter::TEN.iter().map(|p| {
+    rows.extend(Parameter::plain_of_table().map(|p| {
         let [si, us] = both(p.quantity(), p.get(&point.case));
         vec![p.words().into(), p.symbol().into(), si, us]
     }));

@@ -12,7 +12,10 @@ use crate::{export::number::both, parameter::Parameter};
 
 /// The section.
 pub fn parameters(report: &Report) -> Markup {
-    let rows: Vec<Vec<String>> = Parameter::ALL.iter().map(|p| row(report, *p)).collect();
+    let designed = &report.spec.design;
+    let shown = Parameter::all()
+        .filter(|p| Parameter::of_table().any(|t| t == *p) || designed.freedom(*p).is_some());
+    let rows: Vec<Vec<String>> = shown.map(|p| row(report, p)).collect();
     let mut columns = vec![("parameter", Column::Head), ("symbol", Column::Symbol)];
     columns.extend(if report.designed {
         [

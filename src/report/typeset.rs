@@ -13,7 +13,7 @@ use crate::{
 
 /// Symbols that stand in texts: those of parameters, of keys, and of weightings.
 static SYMBOLS: LazyLock<HashSet<&str>> = LazyLock::new(|| {
-    let parameters = Parameter::ALL.iter().map(|p| p.symbol());
+    let parameters = Parameter::all().map(Parameter::symbol);
     let keys = keys::case().map(|key| key.symbol);
     let weightings = ["W_b", "W_d", "W_k", "W_z"];
     parameters.chain(keys).chain(weightings).collect()

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::diagnostic::{Collect, Diagnostic};
 use super::document::{Document, Value};
-use super::keys::{self, Key, Need, Range};
+use super::keys::{self, CaseKey, Need, Range};
 use super::value::{choice, number};
 use crate::case::Case;
 use crate::track::Track;
@@ -25,14 +25,11 @@ pub(super) fn read(
     if let Some(value) = base {
         mistakes.collect(choice(value, "base", &["prototype"]));
     } else {
-        let all = keys::case().filter(|key| !key.path.starts_with(AIR_SPRING));
+        let all = keys::case().filter(|key| !key.path.contains(AIR_SPRING));
         missing(document, all, mistakes);
     }
-    if keys::AIR_SPRING
-        .iter()
-        .any(|key| document.get(key.path).is_some())
-    {
-        missing(document, keys::AIR_SPRING.iter(), mistakes);
+    if keys::air_spring().any(|key| document.get(key.path).is_some()) {
+        missing(document, keys::air_spring(), mistakes);
     }
 
     document.numbers(
@@ -92,10 +89,9 @@ const AIR_SPRING: &str = "suspension.secondary.air_spring.";
 pub(super) fn conicity(value: &Value, documents: &[&Document]) -> Result<f64, Diagnostic> {
     let read = |range| number(value, "conicity", Quantity::Dimensionless, range);
     let conicity = read(Range::Positive)?;
-    let absent: Vec<&str> = keys::COEFFICIENTS
-        .iter()
+    let absent: Vec<&str> = keys::coefficients()
         .filter(|key| documents.iter().all(|d| d.get(key.path).is_none()))
-        .map(Key::name)
+        .map(CaseKey::name)
         .collect();
     if absent.is_empty() {
         return Ok(conicity);
@@ -111,7 +107,7 @@ pub(super) fn conicity(value: &Value, documents: &[&Document]) -> Result<f64, Di
 /// Reports the required keys that the document lacks, one mistake per table.
 fn missing(
     document: &Document,
-    keys: impl Iterator<Item = &'static Key<Case>>,
+    keys: impl Iterator<Item = &'static CaseKey>,
     mistakes: &mut Mistakes,
 ) {
     // With it `base` is lost, which may have been there.

@@ -12,7 +12,7 @@ use super::case::conicity;
 use super::demands::demands;
 use super::diagnostic::{Collect, Diagnostic, word};
 use super::document::{Document, bad_name};
-use super::keys::{self, Key};
+use super::keys::{self, CaseKey};
 use super::value::number;
 use crate::case::Case;
 use crate::index::Demands;
@@ -37,7 +37,7 @@ impl Condition {
         let mut case = case.clone();
         for (path, value) in &self.values {
             if let Some(key) = key(path) {
-                (key.set)(&mut case, *value);
+                key.set(&mut case, *value);
             }
         }
         if let Some(track) = &self.track {
@@ -47,7 +47,7 @@ impl Condition {
     }
 }
 
-fn key(path: &str) -> Option<&'static Key<Case>> {
+fn key(path: &str) -> Option<&'static CaseKey> {
     keys::case().find(|key| key.path == path)
 }
 

@@ -6,6 +6,7 @@ use super::diagnostic::{Collect, Diagnostic, word};
 use super::document::{Document, Value};
 use super::keys::{self, Range};
 use super::value::{choice, interval, list, number, whole};
+use crate::case::Case;
 use crate::optimize::solve::UNSEEN;
 use crate::parameter::Parameter;
 use crate::units::Quantity;
@@ -74,7 +75,7 @@ pub enum Prefer {
 /// What the design may vary. Parameters that are not listed keep the value of the case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DesignSpace {
-    /// In the order of [`Parameter::ALL`].
+    /// In the order of [`Parameter::all`].
     pub parameters: Vec<(Parameter, Freedom)>,
     /// In which order the design is found.
     pub order: Order,
@@ -105,6 +106,13 @@ impl Default for DesignSpace {
 }
 
 impl DesignSpace {
+    /// The parameters in the order in which they are set.
+    pub fn in_setting_order(&self) -> impl Iterator<Item = (Parameter, &Freedom)> {
+        let mut all: Vec<_> = self.parameters.iter().map(|(p, f)| (*p, f)).collect();
+        all.sort_by_key(|(parameter, _)| parameter.setting_order());
+        all.into_iter()
+    }
+
     /// What may be done with a parameter.
     pub fn freedom(&self, parameter: Parameter) -> Option<&Freedom> {
         self.parameters
@@ -125,7 +133,7 @@ pub(super) const SHARES: Range = Range::PositiveUpTo(0.5);
 pub(super) fn read(document: &Document, mistakes: &mut Vec<Diagnostic>) -> DesignSpace {
     let mut design = DesignSpace::default();
     let mut given: Vec<Parameter> = Vec::new();
-    for parameter in Parameter::ALL {
+    for parameter in Parameter::all() {
         let Some(value) = document.get(parameter.path()) else {
             continue;
         };
@@ -177,6 +185,25 @@ pub(super) fn read(document: &Document, mistakes: &mut Vec<Diagnostic>) -> Desig
     design
 }
 
+/// Reports parameters of what the vehicle does not have.
+pub(super) fn absent(
+    document: &Document,
+    design: &DesignSpace,
+    case: &Case,
+    mistakes: &mut Vec<Diagnostic>,
+) {
+    for (parameter, _) in &design.parameters {
+        if parameter.find(case).is_none()
+            && let Some(value) = document.get(parameter.path())
+        {
+            let table = parameter.key_of_constant().table();
+            let message = format!("`{}` has no value to start from", parameter.name());
+            let mistake = Diagnostic::at(value.span(), message, "not a part of the vehicle");
+            mistakes.push(mistake.help(format!("give the vehicle a [{table}]")));
+        }
+    }
+}
+
 impl Prefer {
     /// Name in specs and files.
     pub fn name(self) -> &'static str {
@@ -203,7 +230,7 @@ fn freedom(parameter: Parameter, value: &Value) -> Result<Freedom, Diagnostic> {
             let entry = |key: &str| table.iter().find(|(k, _)| *k.get_ref() == key);
             let known = ["choices", "tied_to", "ratio"];
             let example = match parameter {
-                Parameter::Conicity => "expected { choices = [0.05, 0.10] }",
+                Parameter::CONICITY => "expected { choices = [0.05, 0.10] }",
                 _ => "expected { tied_to = \"primary_lateral_stiffness\", ratio = 0.5 }",
             };
             if let Some((key, _)) = table.iter().find(|(k, _)| !known.contains(&&**k.get_ref())) {
@@ -211,7 +238,7 @@ fn freedom(parameter: Parameter, value: &Value) -> Result<Freedom, Diagnostic> {
                 return Err(Diagnostic::at(key.span(), message, example));
             }
             match (entry("choices"), entry("tied_to"), entry("ratio")) {
-                (Some((key, _)), _, _) if parameter != Parameter::Conicity => Err(Diagnostic::at(
+                (Some((key, _)), _, _) if parameter != Parameter::CONICITY => Err(Diagnostic::at(
                     key.span(),
                     format!("`{name}` cannot be chosen from a list"),
                     "expected bounds: choices are for the wheel profile",
@@ -226,8 +253,9 @@ fn freedom(parameter: Parameter, value: &Value) -> Result<Freedom, Diagnostic> {
                     Ok(Freedom::Choices(values))
                 }
                 (None, Some((_, to)), ratio) => {
-                    let names = Parameter::ALL.map(Parameter::name);
-                    let to = Parameter::ALL[choice(to, "tied_to", &names)?];
+                    let all: Vec<Parameter> = Parameter::all().collect();
+                    let names: Vec<&str> = all.iter().map(|p| p.name()).collect();
+                    let to = all[choice(to, "tied_to", &names)?];
                     if !may_be_tied(parameter, to) {
                         return Err(Diagnostic::at(
                             value.span(),
@@ -242,7 +270,7 @@ fn freedom(parameter: Parameter, value: &Value) -> Result<Freedom, Diagnostic> {
                 }
                 _ => {
                     let message = match parameter {
-                        Parameter::Conicity => format!("`{name}` has no choices"),
+                        Parameter::CONICITY => format!("`{name}` has no choices"),
                         _ => format!("`{name}` says neither bounds nor what it is tied to"),
                     };
                     Err(Diagnostic::at(value.span(), message, example))
@@ -256,7 +284,7 @@ fn freedom(parameter: Parameter, value: &Value) -> Result<Freedom, Diagnostic> {
 
 /// Whether two parameters are of one kind: a conicity is no damping ratio, though both are plain numbers.
 pub(super) fn may_be_tied(parameter: Parameter, to: Parameter) -> bool {
-    let is_conicity = |p| p == Parameter::Conicity;
+    let is_conicity = |p| p == Parameter::CONICITY;
     to.quantity() == parameter.quantity()
         && to.constant() != parameter.constant()
         && is_conicity(to) == is_conicity(parameter)
@@ -266,12 +294,12 @@ pub(super) fn may_be_tied(parameter: Parameter, to: Parameter) -> bool {
 /// frequency in `[design]`: these springs cannot be tied to what follows from them.
 fn follows_from(to: Parameter, parameter: Parameter, design: &DesignSpace) -> bool {
     let by_frequency = design
-        .freedom(Parameter::PrimaryVerticalFrequency)
+        .freedom(Parameter::PRIMARY_VERTICAL_FREQUENCY)
         .is_some();
-    parameter.constant() == Parameter::SecondaryVerticalStiffness
+    parameter.constant() == Parameter::SECONDARY_VERTICAL_STIFFNESS
         && match to {
-            Parameter::PrimaryVerticalFrequency => !by_frequency,
-            Parameter::PrimaryVerticalStiffness => by_frequency,
+            Parameter::PRIMARY_VERTICAL_FREQUENCY => !by_frequency,
+            Parameter::PRIMARY_VERTICAL_STIFFNESS => by_frequency,
             _ => false,
         }
 }

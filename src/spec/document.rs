@@ -109,6 +109,7 @@ fn unknown(
     }
     let elsewhere: Vec<String> = paths
         .iter()
+        .filter(|path| !path.starts_with("trailing.") && !path.starts_with("design.vehicle"))
         .filter_map(|path| path.rsplit_once('.'))
         .filter(|(_, leaf)| leaf == written)
         .map(|(table, _)| format!("[{table}]"))

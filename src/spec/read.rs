@@ -64,6 +64,7 @@ impl Spec {
         let own_tracks = tracks::read(&document, &mut mistakes);
         let case = case::read(&document, &own_tracks, &mut mistakes);
         let design = design::read(&document, &mut mistakes);
+        design::absent(&document, &design, &case, &mut mistakes);
         let objective = demands::objective(&document, &mut mistakes);
         let front = demands::front(&document, &mut mistakes);
         let demands = demands::demands(&document, &mut mistakes);

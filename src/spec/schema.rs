@@ -17,7 +17,7 @@ use crate::index::{Index, Sense};
 use crate::parameter::Parameter;
 use crate::track::Track;
 use crate::units::{Quantity, Range};
-use values::{definitions, described, described_key, interval, number};
+use values::{Described, definitions, described, described_key, interval, number};
 
 /// The schema.
 pub fn schema() -> Value {
@@ -25,10 +25,18 @@ pub fn schema() -> Value {
     for path in keys::paths() {
         insert(&mut root, path, entry(path));
     }
-    for table in TABLES {
+    for table in TABLES.iter() {
         describe(&mut root, table.path, table.meaning);
+        for (before, what) in [
+            ("trailing", "Of the trailing end, where it differs"),
+            ("design", "What may vary of these numbers"),
+            ("design.trailing", "What may vary of the trailing end"),
+        ] {
+            let path = format!("{before}.{}", table.path);
+            describe(&mut root, &path, &format!("{what}. {}", table.meaning));
+        }
     }
-    let air_spring = keys::AIR_SPRING.iter();
+    let air_spring = keys::air_spring();
     let required = air_spring.filter(|key| key.need == Need::Required);
     let names: Vec<&str> = required.map(|key| key.name()).collect();
     if let Some(table) = at(&mut root, "suspension.secondary.air_spring") {
@@ -94,7 +102,7 @@ fn describe(root: &mut Value, path: &str, meaning: &str) {
 fn complete() -> Value {
     let mut root = json!({});
     for key in keys::case().filter(|key| key.need == Need::Required) {
-        if keys::AIR_SPRING.iter().any(|other| other.path == key.path) {
+        if keys::air_spring().any(|other| other.path == key.path) {
             continue;
         }
         let mut table = &mut root;
@@ -124,10 +132,24 @@ fn entry(path: &str) -> Value {
             keys::CONICITY => Range::Positive,
             _ => key.range,
         };
-        return described_key(number(key.quantity, range), key);
+        let described = Described {
+            symbol: key.symbol,
+            quantity: key.quantity,
+            meaning: key.meaning,
+            range: key.range,
+            need: key.need,
+        };
+        return described_key(number(key.quantity, range), &described);
     }
     if let Some(key) = keys::RANGES.iter().find(|key| key.path == path) {
-        return described_key(interval(key.quantity, key.range), key);
+        let described = Described {
+            symbol: key.symbol,
+            quantity: key.quantity,
+            meaning: key.meaning,
+            range: key.range,
+            need: key.need,
+        };
+        return described_key(interval(key.quantity, key.range), &described);
     }
     if let Some(option) = keys::OPTIONS.iter().find(|option| option.path == path) {
         return json!({
@@ -136,7 +158,7 @@ fn entry(path: &str) -> Value {
             "description": format!("{}.", capital(option.meaning)),
         });
     }
-    if let Some(parameter) = Parameter::ALL.into_iter().find(|p| p.path() == path) {
+    if let Some(parameter) = Parameter::all().find(|p| p.path() == path) {
         return freedom(parameter);
     }
     if let Some(index) = Index::ALL.into_iter().find(|index| index.path() == path) {
@@ -148,8 +170,7 @@ fn entry(path: &str) -> Value {
 /// What `[design]` may do with a parameter.
 fn freedom(parameter: Parameter) -> Value {
     let (quantity, range) = (parameter.quantity(), parameter.range());
-    let ties: Vec<&str> = Parameter::ALL
-        .into_iter()
+    let ties: Vec<&str> = Parameter::of_table()
         .filter(|to| may_be_tied(parameter, *to))
         .map(Parameter::name)
         .collect();
@@ -157,7 +178,7 @@ fn freedom(parameter: Parameter) -> Value {
         described(interval(quantity, range), "Bounds, lowest first."),
         described(number(quantity, range), "This value."),
     ];
-    if parameter == Parameter::Conicity {
+    if parameter == Parameter::CONICITY {
         let value = number(quantity, range);
         forms.push(json!({
             "description": "One of these wheel profiles.",
@@ -168,11 +189,17 @@ fn freedom(parameter: Parameter) -> Value {
         }));
     }
     if !ties.is_empty() {
+        // Names of all parameters would make the schema many times as long.
+        let ties = if Parameter::of_table().any(|p| p == parameter) {
+            json!({ "enum": ties })
+        } else {
+            json!({ "type": "string" })
+        };
         forms.push(json!({
             "description": "A multiple of another parameter.",
             "type": "object",
             "properties": {
-                "tied_to": { "enum": ties },
+                "tied_to": ties,
                 "ratio": { "type": "number", "exclusiveMinimum": 0, "default": 1 },
             },
             "required": ["tied_to"],

@@ -4,8 +4,9 @@ use toml::de::DeValue;
 
 use super::diagnostic::{Collect, Diagnostic, word};
 use super::document::{Document, Value, nearest};
-use super::keys::{Key, Range};
+use super::keys::{CaseKey, Key, Range};
 use super::{Interval, scale};
+use crate::case::Case;
 use crate::units::Quantity;
 
 type Read<T> = Result<T, Diagnostic>;
@@ -158,18 +159,18 @@ pub(super) fn whole(value: &Value, name: &str) -> Read<u64> {
 }
 
 impl Document<'_> {
-    /// Reads the numbers of `keys` that the document has into `owner`.
-    pub fn numbers<T: 'static>(
+    /// Reads the numbers of `keys` that the document has into `case`.
+    pub fn numbers(
         &self,
-        keys: impl Iterator<Item = &'static Key<T>>,
-        owner: &mut T,
+        keys: impl Iterator<Item = &'static CaseKey>,
+        case: &mut Case,
         mistakes: &mut Vec<Diagnostic>,
     ) {
         for key in keys {
             if let Some(value) = self.get(key.path) {
                 let read = number(value, key.name(), key.quantity, key.range);
                 if let Some(si) = mistakes.collect(read) {
-                    (key.set)(owner, si);
+                    key.set(case, si);
                 }
             }
         }

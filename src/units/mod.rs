@@ -13,6 +13,7 @@
 mod dimension;
 mod error;
 mod expression;
+mod key;
 mod quantity;
 mod range;
 mod symbol;
@@ -21,5 +22,7 @@ pub mod us;
 pub use dimension::Dimension;
 pub use error::UnitError;
 pub use expression::{LONGEST, Measure, Unit, pattern};
+pub(crate) use key::number;
+pub use key::{Key, Need, Number, Slot, Table};
 pub use quantity::{DisplayUnit, Quantity};
 pub use range::Range;

@@ -1,10 +1,11 @@
-//! The vehicle: a carbody on two like trucks with two wheelsets each.
+//! The vehicle: a carbody on two trucks with two wheelsets each.
 //!
 //! Everything is in SI units. Spring and damper constants are per element, as in the report's
 //! nomenclature: four primary corners and two secondary sides per truck, one secondary yaw
 //! element per truck. Wheelsets are numbered 1–4 from the front, trucks 1 (leading) and 2.
 
 mod carbody;
+mod end;
 mod passenger;
 mod prototype;
 mod suspension;
@@ -12,39 +13,92 @@ mod truck;
 mod wheelset;
 
 pub use carbody::{Carbody, FlexibleMode};
+pub use end::{End, Trailing};
 pub use passenger::Passenger;
-pub use suspension::{AirSpring, DAMPING_PER_STIFFNESS, Primary, Secondary, Suspension};
+pub use suspension::{
+    AIR_SPRING, AirSpring, DAMPING_PER_STIFFNESS, Primary, Secondary, Suspension,
+};
 pub use truck::Truck;
 pub use wheelset::Wheelset;
 
 use serde::Serialize;
 
+use crate::units::Table;
+
 /// Standard acceleration of gravity, m/s² (CGPM 1901).
 pub const GRAVITY: f64 = 9.806_65;
 
+/// The numbers of a vehicle, table by table.
+pub static TABLES: [&Table<Vehicle>; 10] = [
+    &carbody::CARBODY,
+    &carbody::BENDING,
+    &carbody::TORSION_1,
+    &carbody::TORSION_2,
+    &truck::TRUCK,
+    &wheelset::WHEELSET,
+    &suspension::PRIMARY,
+    &suspension::SECONDARY,
+    &suspension::AIR_SPRING,
+    &passenger::PASSENGER,
+];
+
 /// One vehicle with its suspension and the points where its passengers sit.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Vehicle {
     /// One carbody.
     pub carbody: Carbody,
-    /// Either of the two truck frames.
+    /// Truck frame of the leading end, and of the trailing end unless that has its own.
     pub truck: Truck,
-    /// Any of the four wheelsets.
+    /// Either wheelset of the leading end, and of the trailing end unless that has its own.
     pub wheelset: Wheelset,
-    /// Springs and dampers between them.
+    /// Springs and dampers of the leading end, and of the trailing end unless that has its own.
     pub suspension: Suspension,
-    /// Where the ride is computed.
+    /// Points where the ride is computed.
     pub passenger: Passenger,
+    /// The trailing end where it differs; `None`: both ends are the same.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trailing: Option<Box<Trailing>>,
 }
 
 impl Vehicle {
-    /// Static vertical load of one axle on the track, N, wheelset included.
+    /// Truck j (0 leading, 1 trailing) with its wheelsets and suspension.
+    pub fn end(&self, j: usize) -> End {
+        let leading = End {
+            truck: self.truck,
+            wheelset: self.wheelset,
+            suspension: self.suspension,
+        };
+        match &self.trailing {
+            Some(trailing) if j == 1 => trailing.beside(&leading),
+            _ => leading,
+        }
+    }
+
+    /// Static vertical load of one axle on the track, N, wheelset included; the mean of both ends where
+    /// they differ.
     ///
     /// ```math
     /// W_A = g (M_c/4 + M_t/2 + M_w)
     /// ```
     pub fn axle_load(&self) -> f64 {
-        GRAVITY * (self.carbody.mass / 4.0 + self.truck.mass / 2.0 + self.wheelset.mass)
+        let leading =
+            GRAVITY * (self.carbody.mass / 4.0 + self.truck.mass / 2.0 + self.wheelset.mass);
+        match &self.trailing {
+            None => leading,
+            Some(trailing) => {
+                let End {
+                    truck, wheelset, ..
+                } = &trailing.end;
+                let load = GRAVITY * (self.carbody.mass / 4.0 + truck.mass / 2.0 + wheelset.mass);
+                f64::midpoint(leading, load)
+            }
+        }
+    }
+
+    /// Static vertical load of an axle of truck j (0 leading, 1 trailing), N.
+    pub fn axle_load_of(&self, j: usize) -> f64 {
+        let (carbody, end) = (self.carbody.mass, self.end(j));
+        GRAVITY * (carbody / 4.0 + end.truck.mass / 2.0 + end.wheelset.mass)
     }
 
     /// Static load of one wheel, N: half the axle load.
@@ -53,19 +107,29 @@ impl Vehicle {
     }
 
     /// Static deflection of the secondary springs under the carbody, m; of air springs, which are
-    /// levelled, the deflection that their static stiffness would give.
+    /// levelled, the deflection that their static stiffness would give. The larger one where the ends
+    /// differ.
     ///
     /// ```math
     /// M_c g / (4 K_sz)
     /// ```
     pub fn secondary_static_deflection(&self) -> f64 {
-        let stiffness = self.suspension.secondary.static_vertical_stiffness();
-        self.carbody.mass * GRAVITY / (4.0 * stiffness)
+        let of = |j| {
+            let stiffness = self.end(j).suspension.secondary.static_vertical_stiffness();
+            self.carbody.mass * GRAVITY / (4.0 * stiffness)
+        };
+        of(0).max(of(1))
     }
 
     /// Total mass, kg.
     pub fn mass(&self) -> f64 {
-        self.carbody.mass + 2.0 * self.truck.mass + 4.0 * self.wheelset.mass
+        let end = |j| {
+            let End {
+                truck, wheelset, ..
+            } = self.end(j);
+            truck.mass + 2.0 * wheelset.mass
+        };
+        self.carbody.mass + (end(0) + end(1))
     }
 
     /// Primary bending stiffness K_b = d_p² K_px, N m/rad (4.5-7).
@@ -73,19 +137,15 @@ impl Vehicle {
         self.truck.half_primary_spacing.powi(2) * self.suspension.primary.longitudinal_stiffness
     }
 
-    /// Sets K_px from the primary bending stiffness K_b, N m/rad (step 5 of Table 4.6.1).
-    pub fn set_bending_stiffness(&mut self, bending_stiffness: f64) {
-        self.suspension.primary.longitudinal_stiffness =
-            bending_stiffness / self.truck.half_primary_spacing.powi(2);
-    }
-
     /// Position of wheelset `i` (0–3 from the front) relative to mid-length, m, forward positive.
     pub fn wheelset_position(&self, i: usize) -> f64 {
-        let (l_s, b) = (self.carbody.half_truck_spacing, self.truck.half_wheelbase);
-        [l_s + b, l_s - b, -l_s + b, -l_s - b][i]
+        let b = self.end(i / 2).truck.half_wheelbase;
+        let l_s = self.carbody.half_truck_spacing;
+        let truck = if i < 2 { l_s } else { -l_s };
+        truck + if i.is_multiple_of(2) { b } else { -b }
     }
 
-    /// Distance of wheelset `i` behind wheelset 1, m: what delays its track input.
+    /// Distance of wheelset `i` behind wheelset 1, m: its track input is delayed by the time for that way.
     pub fn wheelset_lag(&self, i: usize) -> f64 {
         self.wheelset_position(0) - self.wheelset_position(i)
     }

@@ -76,6 +76,7 @@ impl Vehicle {
                 lateral_offset: 3.75 * FOOT,
                 height_above_carbody_cg: -2.94 * FOOT,
             },
+            trailing: None,
         }
     }
 }

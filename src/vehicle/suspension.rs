@@ -2,6 +2,15 @@
 
 use serde::Serialize;
 
+use super::{Vehicle, end::of_end};
+use crate::units::{
+    Key,
+    Need::{Optional, Required},
+    Number, Quantity,
+    Range::{NonNegative, Positive},
+    Table,
+};
+
 /// Ratio of a primary (or yaw) damping to its stiffness where none is given, s (Table 4.1.1).
 pub const DAMPING_PER_STIFFNESS: f64 = 1.0 / 250.0;
 
@@ -127,3 +136,97 @@ impl AirSpring {
 fn dependent(given: Option<f64>, stiffness: f64) -> f64 {
     given.unwrap_or(stiffness * DAMPING_PER_STIFFNESS)
 }
+
+/// Numbers of `[suspension.primary]`.
+#[rustfmt::skip]
+pub static PRIMARY: Table<Vehicle> = Table {
+    path: "suspension.primary",
+    meaning: "Between wheelsets and truck frame, per corner (4 per truck).",
+    numbers: &[
+        of_end!("suspension.primary.longitudinal_stiffness", "K_px", Stiffness, Positive, Required, "primary longitudinal stiffness, per corner (4 per truck)", suspension.primary.longitudinal_stiffness),
+        of_end!("suspension.primary.lateral_stiffness", "K_py", Stiffness, Positive, Required, "primary lateral stiffness, per corner", suspension.primary.lateral_stiffness),
+        of_end!("suspension.primary.vertical_stiffness", "K_pz", Stiffness, Positive, Required, "primary vertical stiffness, per corner", suspension.primary.vertical_stiffness),
+        of_end!("suspension.primary.longitudinal_damping", "C_px", Damping, NonNegative, Optional("longitudinal_stiffness / 250 s⁻¹"), "primary longitudinal damping, per corner", suspension.primary.longitudinal_damping, |end| Some(end.suspension.primary.c_px())),
+        of_end!("suspension.primary.lateral_damping", "C_py", Damping, NonNegative, Optional("lateral_stiffness / 250 s⁻¹"), "primary lateral damping, per corner", suspension.primary.lateral_damping, |end| Some(end.suspension.primary.c_py())),
+        of_end!("suspension.primary.vertical_damping", "C_pz", Damping, NonNegative, Optional("vertical_stiffness / 250 s⁻¹"), "primary vertical damping, per corner", suspension.primary.vertical_damping, |end| Some(end.suspension.primary.c_pz())),
+    ],
+};
+
+/// Numbers of `[suspension.secondary]`.
+#[rustfmt::skip]
+pub static SECONDARY: Table<Vehicle> = Table {
+    path: "suspension.secondary",
+    meaning: "Between truck frame and carbody, per side (2 per truck); yaw per truck.",
+    numbers: &[
+        of_end!("suspension.secondary.lateral_stiffness", "K_sy", Stiffness, Positive, Required, "secondary lateral stiffness, per side (2 per truck)", suspension.secondary.lateral_stiffness),
+        of_end!("suspension.secondary.lateral_damping", "C_sy", Damping, NonNegative, Required, "secondary lateral damping, per side", suspension.secondary.lateral_damping),
+        of_end!("suspension.secondary.vertical_stiffness", "K_sz", Stiffness, Positive, Required, "secondary vertical stiffness, per side", suspension.secondary.vertical_stiffness),
+        of_end!("suspension.secondary.vertical_damping", "C_sz", Damping, NonNegative, Required, "secondary vertical damping, per side", suspension.secondary.vertical_damping),
+        of_end!("suspension.secondary.yaw_stiffness", "K_sψ", RotationalStiffness, NonNegative, Required, "secondary yaw stiffness, per truck", suspension.secondary.yaw_stiffness),
+        of_end!("suspension.secondary.yaw_damping", "C_sψ", RotationalDamping, NonNegative, Optional("yaw_stiffness / 250 s⁻¹"), "secondary yaw damping, per truck", suspension.secondary.yaw_damping, |end| Some(end.suspension.secondary.c_spsi())),
+        of_end!("suspension.secondary.yaw_breakaway_torque", "T_sψ", Torque, NonNegative, Required, "yaw breakaway torque, at which the truck begins to slip under the carbody", suspension.secondary.yaw_breakaway_torque),
+    ],
+};
+
+/// A number of the air spring, which comes into being with the first of them.
+macro_rules! air {
+    ($path:literal, $quantity:ident, $range:expr, $need:expr, $meaning:literal, $field:ident) => {
+        Number {
+            key: Key {
+                path: $path,
+                symbol: "",
+                quantity: Quantity::$quantity,
+                meaning: $meaning,
+                range: $range,
+                need: $need,
+                get: |vehicle: &Vehicle| Some(vehicle.suspension.secondary.air_spring?.$field),
+                set: |vehicle: &mut Vehicle, value| {
+                    let spring = &mut vehicle.suspension.secondary.air_spring;
+                    spring.get_or_insert(NOTHING).$field = value;
+                    if let Some(end) = vehicle.trailing_end_following(concat!("trailing.", $path)) {
+                        let spring = &mut end.suspension.secondary.air_spring;
+                        spring.get_or_insert(NOTHING).$field = value;
+                    }
+                },
+            },
+            trailing: Some(Key {
+                path: concat!("trailing.", $path),
+                symbol: "",
+                quantity: Quantity::$quantity,
+                meaning: $meaning,
+                range: $range,
+                need: Optional("as at the leading end"),
+                get: |vehicle: &Vehicle| {
+                    let end = vehicle.trailing_end_with_own(concat!("trailing.", $path))?;
+                    Some(end.suspension.secondary.air_spring?.$field)
+                },
+                set: |vehicle: &mut Vehicle, value| {
+                    let end = vehicle.trailing_end_of_its_own(concat!("trailing.", $path));
+                    let spring = &mut end.suspension.secondary.air_spring;
+                    spring.get_or_insert(NOTHING).$field = value;
+                },
+            }),
+            in_force: |vehicle, j| Some(vehicle.end(j).suspension.secondary.air_spring?.$field),
+        }
+    };
+}
+
+const NOTHING: AirSpring = AirSpring {
+    direct_stiffness: 0.0,
+    series_stiffness: 0.0,
+    orifice_damping: 0.0,
+    reservoir_stiffness: 0.0,
+};
+
+/// Numbers of `[suspension.secondary.air_spring]`: all or none; required ones are required of an air spring.
+#[rustfmt::skip]
+pub static AIR_SPRING: Table<Vehicle> = Table {
+    path: "suspension.secondary.air_spring",
+    meaning: "An air spring with orifice damping, per side; it takes the place of K_sz and C_sz in the vertical model (Figure 3.4.5a).",
+    numbers: &[
+        air!("suspension.secondary.air_spring.direct_stiffness", Stiffness, NonNegative, Required, "direct spring of an air spring (change of effective area), per side", direct_stiffness),
+        air!("suspension.secondary.air_spring.series_stiffness", Stiffness, Positive, Required, "air in the bellows, in series with the orifice, per side", series_stiffness),
+        air!("suspension.secondary.air_spring.orifice_damping", Damping, NonNegative, Required, "orifice between bellows and reservoir, per side", orifice_damping),
+        air!("suspension.secondary.air_spring.reservoir_stiffness", Stiffness, NonNegative, Optional("0"), "air in the reservoir, in parallel with the orifice, per side", reservoir_stiffness),
+    ],
+};

@@ -1,7 +1,9 @@
 //! Wheel–rail contact: profile geometry and creep coefficients.
 
+mod numbers;
 mod table;
 
+pub use numbers::{CONICITY, WHEEL_RAIL, coefficients};
 pub(crate) use table::rows_around;
 pub use table::{CONICITY_MAX, PROFILES};
 
@@ -76,19 +78,52 @@ pub struct Contact {
 }
 
 impl WheelRail {
-    /// Resolves the coefficients: explicit values first, the table of the report for the rest.
+    /// Coefficients in force: explicit values first, the table of the report for the rest.
     pub fn contact(&self) -> Contact {
-        let profile = table::interpolate(self.conicity);
-        let k = self.creep_factor;
+        self.full_creep().with_creep_factor(self.creep_factor)
+    }
+
+    /// The same with full Kalker coefficients, before the creep factor.
+    pub fn full_creep(&self) -> Contact {
+        let table = Contact::tabulated(self.conicity);
         Contact {
             conicity: self.conicity,
-            f11: k * self.lateral_creep.unwrap_or(profile.f11),
-            f12: k * self.lateral_spin_creep.unwrap_or(profile.f12),
-            f22: k * self.spin_creep.unwrap_or(profile.f22),
-            f33: k * self.longitudinal_creep.unwrap_or(profile.f33),
-            a11: self.roll_coefficient.unwrap_or(profile.a11),
-            delta_0: self.contact_angle.unwrap_or(profile.delta_0),
-            delta: self.contact_angle_difference.unwrap_or(profile.delta),
+            f11: self.lateral_creep.unwrap_or(table.f11),
+            f12: self.lateral_spin_creep.unwrap_or(table.f12),
+            f22: self.spin_creep.unwrap_or(table.f22),
+            f33: self.longitudinal_creep.unwrap_or(table.f33),
+            a11: self.roll_coefficient.unwrap_or(table.a11),
+            delta_0: self.contact_angle.unwrap_or(table.delta_0),
+            delta: self.contact_angle_difference.unwrap_or(table.delta),
+        }
+    }
+}
+
+impl Contact {
+    /// The contact with a factor on all creep coefficients.
+    #[must_use]
+    pub fn with_creep_factor(self, factor: f64) -> Self {
+        Self {
+            f11: factor * self.f11,
+            f12: factor * self.f12,
+            f22: factor * self.f22,
+            f33: factor * self.f33,
+            ..self
+        }
+    }
+
+    /// The contact of a wheel whose load is `ratio` times that to which the coefficients belong (3.4.5):
+    /// f11, f33 ∝ N^⅔, f12 ∝ N, f22 ∝ N^(4/3).
+    #[must_use]
+    pub fn at_load(self, ratio: f64) -> Self {
+        // A wheel without load has no creep forces; the model of such a vehicle is not solved.
+        let ratio = ratio.max(0.0);
+        Self {
+            f11: self.f11 * ratio.powf(2.0 / 3.0),
+            f12: self.f12 * ratio,
+            f22: self.f22 * ratio.powf(4.0 / 3.0),
+            f33: self.f33 * ratio.powf(2.0 / 3.0),
+            ..self
         }
     }
 }

@@ -42,27 +42,29 @@ fn upper_row(conicity: f64) -> usize {
         .unwrap_or(ROWS.len() - 1)
 }
 
-/// Full Kalker coefficients for conicity λ, linear between rows.
-///
-/// Below 0.05 the tread is a plain cone: a11 = δ0 = λ, Δ = 0, f12 and f22 as at 0.05, f11 and f33
-/// extrapolated from the first two rows. Above 0.25 the last two rows are extrapolated; spec
-/// reading does not let that happen.
-pub(super) fn interpolate(conicity: f64) -> Contact {
-    let upper = upper_row(conicity);
-    let (low, high) = (&ROWS[upper - 1], &ROWS[upper]);
-    let t = (conicity - low[0]) / (high[0] - low[0]);
-    let linear = |column: usize| low[column] + t * (high[column] - low[column]);
-    let cone = conicity < ROWS[0][0];
-    let cylindrical = |column: usize| if cone { low[column] } else { linear(column) };
-    Contact {
-        conicity,
-        f11: linear(1) * LBF,
-        f12: cylindrical(2) * LBF * FOOT,
-        f22: cylindrical(3) * LBF * FOOT * FOOT,
-        f33: linear(4) * LBF,
-        a11: if cone { conicity } else { linear(5) },
-        delta_0: if cone { conicity } else { linear(5) },
-        delta: if cone { 0.0 } else { linear(6) },
+impl Contact {
+    /// Full Kalker coefficients for conicity λ, linear between rows.
+    ///
+    /// Below 0.05 the tread is a plain cone: a11 = δ0 = λ, Δ = 0, f12 and f22 as at 0.05, f11 and f33
+    /// extrapolated from the first two rows. Above 0.25 the last two rows are extrapolated; spec
+    /// reading does not let that happen.
+    pub fn tabulated(conicity: f64) -> Self {
+        let upper = upper_row(conicity);
+        let (low, high) = (&ROWS[upper - 1], &ROWS[upper]);
+        let t = (conicity - low[0]) / (high[0] - low[0]);
+        let linear = |column: usize| low[column] + t * (high[column] - low[column]);
+        let cone = conicity < ROWS[0][0];
+        let cylindrical = |column: usize| if cone { low[column] } else { linear(column) };
+        Self {
+            conicity,
+            f11: linear(1) * LBF,
+            f12: cylindrical(2) * LBF * FOOT,
+            f22: cylindrical(3) * LBF * FOOT * FOOT,
+            f33: linear(4) * LBF,
+            a11: if cone { conicity } else { linear(5) },
+            delta_0: if cone { conicity } else { linear(5) },
+            delta: if cone { 0.0 } else { linear(6) },
+        }
     }
 }
 
@@ -73,7 +75,7 @@ mod tests {
     #[test]
     fn rows_are_reproduced() {
         for row in ROWS {
-            let c = interpolate(row[0]);
+            let c = Contact::tabulated(row[0]);
             let us = [
                 c.f11 / LBF,
                 c.f12 / LBF / FOOT,
@@ -93,7 +95,7 @@ mod tests {
 
     #[test]
     fn plain_cone_below_the_table() {
-        let c = interpolate(0.025);
+        let c = Contact::tabulated(0.025);
         // 2.12e6 − (2.245e6 − 2.12e6)/2 and 2.3e6 − (2.52e6 − 2.3e6)/2 lb
         assert!((c.f11 / LBF - 2.0575e6).abs() < 1e-3);
         assert!((c.f33 / LBF - 2.19e6).abs() < 1e-3);
@@ -103,7 +105,7 @@ mod tests {
 
     #[test]
     fn halfway_between_rows_is_the_mean() {
-        let c = interpolate(0.20);
+        let c = Contact::tabulated(0.20);
         assert!((c.f22 / LBF / FOOT / FOOT - 647.0).abs() < 1e-9);
         assert!((c.delta - 13.4).abs() < 1e-12);
     }

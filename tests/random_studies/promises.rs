@@ -204,16 +204,15 @@ fn moved(spec: &Spec, case: &Case) -> impl Iterator<Item = &'static str> {
     let sets = |constant: Parameter| {
         let listed = spec.design.parameters.iter().map(|(p, _)| *p);
         let with = match constant {
-            Parameter::SecondaryLateralDamping => Parameter::SecondaryLateralFrequency,
-            Parameter::SecondaryVerticalDamping => Parameter::SecondaryVerticalFrequency,
+            Parameter::SECONDARY_LATERAL_DAMPING => Parameter::SECONDARY_LATERAL_FREQUENCY,
+            Parameter::SECONDARY_VERTICAL_DAMPING => Parameter::SECONDARY_VERTICAL_FREQUENCY,
             other => other,
         };
         listed
             .into_iter()
             .any(|p| p.constant() == constant || p == with)
     };
-    Parameter::TEN
-        .into_iter()
+    Parameter::plain_of_table()
         .filter(move |constant| {
             // Nothing computes with it: the same bits.
             let same = constant.get(case).to_bits() == constant.get(&spec.case).to_bits();

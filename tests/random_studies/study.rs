@@ -149,7 +149,7 @@ fn vehicle(rng: &mut Random, lines: &mut Vec<String>) -> Case {
             let path = format!("suspension.secondary.air_spring.{name}");
             lines.push(format!("{path} = {}", written(rng, quantity, si)));
             let key = keys::case().find(|key| key.path == path).expect("a key");
-            (key.set)(&mut case, si);
+            key.set(&mut case, si);
         };
         of("direct_stiffness", Quantity::Stiffness, 0.4 * k_sz);
         of("series_stiffness", Quantity::Stiffness, 2.0 * k_sz);
@@ -170,7 +170,7 @@ fn within(range: Range, si: f64) -> f64 {
 
 /// One to six constants: open, set, tied or to be chosen from a list.
 fn design(rng: &mut Random, case: &Case, lines: &mut Vec<String>) {
-    let mut all = Parameter::ALL.to_vec();
+    let mut all = Parameter::of_table().collect::<Vec<_>>();
     all.shuffle(rng);
     let mut chosen: Vec<Parameter> = Vec::new();
     let count = rng.random_range(1..=6);
@@ -207,7 +207,7 @@ fn design(rng: &mut Random, case: &Case, lines: &mut Vec<String>) {
 /// Bounds around the vehicle's own value, now and then beside it; profiles to choose from.
 fn bounds(rng: &mut Random, case: &Case, parameter: Parameter) -> String {
     let own = parameter.get(case);
-    if parameter == Parameter::Conicity && rng.random_bool(0.5) {
+    if parameter == Parameter::CONICITY && rng.random_bool(0.5) {
         let mut profiles = vec![0.05, 0.1, 0.15, 0.2, 0.25, own];
         profiles.shuffle(rng);
         profiles.truncate(rng.random_range(1..4));
@@ -232,10 +232,10 @@ fn bounds(rng: &mut Random, case: &Case, parameter: Parameter) -> String {
 
 /// A tie to another parameter of the same kind, at the vehicle's own ratio or another.
 fn tie(rng: &mut Random, case: &Case, parameter: Parameter) -> String {
-    let fits = |to: &&Parameter| {
+    let fits = |to: &Parameter| {
         to.quantity() == parameter.quantity() && to.constant() != parameter.constant()
     };
-    let others: Vec<&Parameter> = Parameter::ALL.iter().filter(fits).collect();
+    let others: Vec<Parameter> = Parameter::of_table().filter(fits).collect();
     let Some(to) = others.choose(rng) else {
         return bounds(rng, case, parameter);
     };
@@ -323,9 +323,9 @@ fn condition(rng: &mut Random, case: &Case, name: &str, lines: &mut Vec<String>)
     let mut case = case.clone();
     for path in changed {
         let key = keys::case().find(|key| key.path == path).expect(path);
-        let own = (key.get)(&case).unwrap_or(0.02);
+        let own = key.get(&case).unwrap_or(0.02);
         let si = within(key.range, own * rng.random_range(0.7..1.3));
-        (key.set)(&mut case, si);
+        key.set(&mut case, si);
         lines.push(format!(
             "{prefix}{path} = {}",
             written(rng, key.quantity, si)

@@ -40,7 +40,7 @@ fn case_of(entry: &Value) -> Case {
             continue;
         }
         let key = keys::case().find(|key| key.path == path).expect(path);
-        (key.set)(&mut case, value.as_f64().unwrap());
+        key.set(&mut case, value.as_f64().unwrap());
     }
     case
 }
@@ -50,10 +50,10 @@ pub fn random_vehicle(rng: &mut ChaCha8Rng, factor: f64) -> Case {
     let prototype = Case::prototype();
     let mut case = prototype.clone();
     for key in keys::case() {
-        if let Some(value) = (key.get)(&prototype) {
+        if let Some(value) = key.get(&prototype) {
             let changed = value * factor.powf(rng.random_range(-1.0..1.0));
             if key.range.contains(changed) {
-                (key.set)(&mut case, changed);
+                key.set(&mut case, changed);
             }
         }
     }
@@ -116,4 +116,10 @@ pub fn numerics(name: &str) -> Spec {
     let source = std::fs::read_to_string(&path).expect(&path);
     Spec::parse(&source)
         .unwrap_or_else(|mistakes| panic!("{}", mistakes.render(name, &source, false)))
+}
+
+/// The plain parameters of Table 4.1.1.
+#[allow(dead_code)]
+pub fn ten() -> Vec<bogie::parameter::Parameter> {
+    bogie::parameter::Parameter::plain_of_table().collect()
 }

@@ -16,8 +16,8 @@ const YAW: [f64; 3] = [0.5e6, 1e6, 6e6];
 
 /// Degree curve over the yaw breakaway torque for three yaw stiffnesses.
 pub(super) fn draw(book: &Workbook, entry: &Entry) -> Figure {
-    let torque = Parameter::SecondaryYawBreakawayTorque;
-    let yaw = Parameter::SecondaryYawStiffness;
+    let torque = Parameter::SECONDARY_YAW_BREAKAWAY_TORQUE;
+    let yaw = Parameter::SECONDARY_YAW_STIFFNESS;
     let x = book
         .axis(
             torque.words(),
@@ -67,9 +67,9 @@ pub(super) fn draw(book: &Workbook, entry: &Entry) -> Figure {
     figure.subtitle = book.subtitle(
         None,
         &[
-            Parameter::Conicity,
-            Parameter::PrimaryBendingStiffness,
-            Parameter::PrimaryLateralStiffness,
+            Parameter::CONICITY,
+            Parameter::PRIMARY_BENDING_STIFFNESS,
+            Parameter::PRIMARY_LATERAL_STIFFNESS,
             yaw,
         ],
     );

@@ -22,17 +22,17 @@ use crate::{
 /// Over a primary stiffness, by conicity.
 pub(super) fn by_conicity(book: &Workbook, entry: &Entry, over: Parameter) -> Figure {
     let [bending, lateral] = book.stiffness_axes();
-    let (x, fixed) = if over == Parameter::PrimaryBendingStiffness {
-        (bending, Parameter::PrimaryLateralStiffness)
+    let (x, fixed) = if over == Parameter::PRIMARY_BENDING_STIFFNESS {
+        (bending, Parameter::PRIMARY_LATERAL_STIFFNESS)
     } else {
-        (lateral, Parameter::PrimaryBendingStiffness)
+        (lateral, Parameter::PRIMARY_BENDING_STIFFNESS)
     };
     let parameters: Vec<(String, f64)> = CONICITIES
         .into_iter()
         .map(|conicity| (format!("λ = {conicity}"), conicity))
         .collect();
     let (panel, everywhere) = panel(book, x, &parameters, &|case, conicity, value| {
-        Parameter::Conicity.set(case, conicity);
+        Parameter::CONICITY.set(case, conicity);
         over.set(case, value);
     });
     let mut figure = entry
@@ -46,7 +46,7 @@ pub(super) fn by_conicity(book: &Workbook, entry: &Entry, over: Parameter) -> Fi
              marked.",
             over.words()
         ));
-    figure.subtitle = book.subtitle(None, &[fixed, Parameter::SecondaryYawStiffness]);
+    figure.subtitle = book.subtitle(None, &[fixed, Parameter::SECONDARY_YAW_STIFFNESS]);
     noted(book, figure, everywhere)
 }
 
@@ -55,7 +55,7 @@ const FACTORS: [f64; 3] = [0.5, 1.0, 2.0];
 
 /// Over the secondary yaw stiffness, by a factor on the primary stiffnesses.
 pub(super) fn by_primary(book: &Workbook, entry: &Entry) -> Figure {
-    let over = Parameter::SecondaryYawStiffness;
+    let over = Parameter::SECONDARY_YAW_STIFFNESS;
     let range = [1e5 * LBF * FOOT, 1e8 * LBF * FOOT];
     let x = book.parameter_axis(over, range);
     let parameters: Vec<(String, f64)> = FACTORS
@@ -71,8 +71,8 @@ pub(super) fn by_primary(book: &Workbook, entry: &Entry) -> Figure {
         .collect();
     let (panel, everywhere) = panel(book, x, &parameters, &|case, factor, value| {
         for primary in [
-            Parameter::PrimaryLongitudinalStiffness,
-            Parameter::PrimaryLateralStiffness,
+            Parameter::PRIMARY_LONGITUDINAL_STIFFNESS,
+            Parameter::PRIMARY_LATERAL_STIFFNESS,
         ] {
             let stiffness = factor * primary.get(case);
             primary.set(case, stiffness);
@@ -89,9 +89,9 @@ pub(super) fn by_primary(book: &Workbook, entry: &Entry) -> Figure {
     figure.subtitle = book.subtitle(
         None,
         &[
-            Parameter::Conicity,
-            Parameter::PrimaryBendingStiffness,
-            Parameter::PrimaryLateralStiffness,
+            Parameter::CONICITY,
+            Parameter::PRIMARY_BENDING_STIFFNESS,
+            Parameter::PRIMARY_LATERAL_STIFFNESS,
         ],
     );
     noted(book, figure, everywhere)

@@ -150,10 +150,10 @@ pub(super) fn boundary(book: &Workbook, entry: &Entry) -> Figure {
     figure.subtitle = book.subtitle(
         None,
         &[
-            Parameter::Conicity,
-            Parameter::PrimaryBendingStiffness,
-            Parameter::PrimaryLateralStiffness,
-            Parameter::SecondaryYawBreakawayTorque,
+            Parameter::CONICITY,
+            Parameter::PRIMARY_BENDING_STIFFNESS,
+            Parameter::PRIMARY_LATERAL_STIFFNESS,
+            Parameter::SECONDARY_YAW_BREAKAWAY_TORQUE,
         ],
     );
     figure
@@ -249,8 +249,8 @@ pub(super) fn lines(book: &Workbook, entry: &Entry) -> Figure {
         panel = panel.with(family);
     }
     panel = panel.mark(book.design(
-        Parameter::PrimaryBendingStiffness,
-        Parameter::PrimaryLateralStiffness,
+        Parameter::PRIMARY_BENDING_STIFFNESS,
+        Parameter::PRIMARY_LATERAL_STIFFNESS,
     ));
     let mut figure = entry
         .figure("Lines of constant curving performance for two conicities")
@@ -261,7 +261,7 @@ pub(super) fn lines(book: &Workbook, entry: &Entry) -> Figure {
         );
     figure.subtitle = format!(
         "{}, zero cant deficiency; the design has λ = {}",
-        book.subtitle(None, &[Parameter::SecondaryYawBreakawayTorque]),
+        book.subtitle(None, &[Parameter::SECONDARY_YAW_BREAKAWAY_TORQUE]),
         book.case().wheel_rail.conicity
     );
     figure

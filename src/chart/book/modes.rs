@@ -137,6 +137,6 @@ pub(super) fn lateral(book: &Workbook, entry: &Entry) -> Figure {
              at the operating speed, with its name.",
         );
     let mut figure = chart(figure, modes);
-    figure.subtitle = book.subtitle(Some(speed), &[Parameter::Conicity]);
+    figure.subtitle = book.subtitle(Some(speed), &[Parameter::CONICITY]);
     figure.note("Modes with a damping ratio above 0.999 are left out.")
 }

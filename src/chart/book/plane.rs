@@ -16,12 +16,12 @@ impl Plane {
     pub fn parameters(self) -> [Parameter; 2] {
         match self {
             Self::Lateral => [
-                Parameter::SecondaryLateralFrequency,
-                Parameter::SecondaryLateralDampingRatio,
+                Parameter::SECONDARY_LATERAL_FREQUENCY,
+                Parameter::SECONDARY_LATERAL_DAMPING_RATIO,
             ],
             Self::Vertical => [
-                Parameter::SecondaryVerticalFrequency,
-                Parameter::SecondaryVerticalDampingRatio,
+                Parameter::SECONDARY_VERTICAL_FREQUENCY,
+                Parameter::SECONDARY_VERTICAL_DAMPING_RATIO,
             ],
         }
     }

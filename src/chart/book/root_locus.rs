@@ -185,9 +185,9 @@ pub(super) fn draw(book: &Workbook, entry: &Entry) -> Figure {
     figure.subtitle = book.subtitle(
         None,
         &[
-            Parameter::Conicity,
-            Parameter::PrimaryBendingStiffness,
-            Parameter::PrimaryLateralStiffness,
+            Parameter::CONICITY,
+            Parameter::PRIMARY_BENDING_STIFFNESS,
+            Parameter::PRIMARY_LATERAL_STIFFNESS,
         ],
     );
     figure.note(format!(

@@ -30,8 +30,8 @@ const RATIOS: [f64; 5] = [0.05, 0.1, 0.25, 0.8, 1.5];
 /// Acceleration and stroke for several natural frequencies and several damping ratios.
 pub(super) fn draw(book: &Workbook, entry: &Entry) -> Figure {
     let case = book.case();
-    let f_n = Parameter::SecondaryVerticalFrequency.get(case);
-    let xi = Parameter::SecondaryVerticalDampingRatio.get(case);
+    let f_n = Parameter::SECONDARY_VERTICAL_FREQUENCY.get(case);
+    let xi = Parameter::SECONDARY_VERTICAL_DAMPING_RATIO.get(case);
     let x = frequency_axis([0.1, 20.0]);
     let frequencies = Scale::Log.spread(x.range, 321);
     let outputs = [

@@ -67,8 +67,8 @@ pub(super) fn contours(book: &Workbook, entry: &Entry, index: usize) -> Figure {
     let own = book.case().wheel_rail.conicity;
     if (own - conicity).abs() < 1e-9 {
         panel = panel.mark(book.design(
-            Parameter::PrimaryBendingStiffness,
-            Parameter::PrimaryLateralStiffness,
+            Parameter::PRIMARY_BENDING_STIFFNESS,
+            Parameter::PRIMARY_LATERAL_STIFFNESS,
         ));
     }
     panel.field = Some(field);
@@ -91,8 +91,8 @@ pub(super) fn contours(book: &Workbook, entry: &Entry, index: usize) -> Figure {
         book.subtitle(
             None,
             &[
-                Parameter::SecondaryYawStiffness,
-                Parameter::SecondaryYawBreakawayTorque,
+                Parameter::SECONDARY_YAW_STIFFNESS,
+                Parameter::SECONDARY_YAW_BREAKAWAY_TORQUE,
             ],
         )
     );
@@ -232,8 +232,8 @@ pub(super) fn envelopes(book: &Workbook, entry: &Entry) -> Figure {
         book.subtitle(
             None,
             &[
-                Parameter::SecondaryYawStiffness,
-                Parameter::SecondaryYawBreakawayTorque,
+                Parameter::SECONDARY_YAW_STIFFNESS,
+                Parameter::SECONDARY_YAW_BREAKAWAY_TORQUE,
             ],
         )
     );

@@ -101,17 +101,17 @@ impl Workbook<'_> {
         let bending = [1e5 * us::LBF * us::FOOT, 2e7 * us::LBF * us::FOOT];
         let lateral = [2e4 * us::LBF / us::FOOT, 5e6 * us::LBF / us::FOOT];
         [
-            self.parameter_axis(Parameter::PrimaryBendingStiffness, bending),
-            self.parameter_axis(Parameter::PrimaryLateralStiffness, lateral),
+            self.parameter_axis(Parameter::PRIMARY_BENDING_STIFFNESS, bending),
+            self.parameter_axis(Parameter::PRIMARY_LATERAL_STIFFNESS, lateral),
         ]
     }
 
     /// The case at a point of K_b and K_py, at one of [`CONICITIES`].
     fn at(&self, conicity: usize, [k_b, k_py]: [f64; 2]) -> Case {
         self.with(&[
-            (Parameter::Conicity, CONICITIES[conicity]),
-            (Parameter::PrimaryBendingStiffness, k_b),
-            (Parameter::PrimaryLateralStiffness, k_py),
+            (Parameter::CONICITY, CONICITIES[conicity]),
+            (Parameter::PRIMARY_BENDING_STIFFNESS, k_b),
+            (Parameter::PRIMARY_LATERAL_STIFFNESS, k_py),
         ])
     }
 

@@ -147,14 +147,14 @@ impl Over {
     /// What the chart holds fixed.
     fn fixed(self) -> Vec<Parameter> {
         [
-            (Self::Conicity, Parameter::Conicity),
-            (Self::Bending, Parameter::PrimaryBendingStiffness),
-            (Self::Lateral, Parameter::PrimaryLateralStiffness),
+            (Self::Conicity, Parameter::CONICITY),
+            (Self::Bending, Parameter::PRIMARY_BENDING_STIFFNESS),
+            (Self::Lateral, Parameter::PRIMARY_LATERAL_STIFFNESS),
         ]
         .into_iter()
-        .filter(|(axis, p)| *axis != self && !(self == Self::Speed && *p == Parameter::Conicity))
+        .filter(|(axis, p)| *axis != self && !(self == Self::Speed && *p == Parameter::CONICITY))
         .map(|(_, parameter)| parameter)
-        .chain([Parameter::SecondaryYawStiffness])
+        .chain([Parameter::SECONDARY_YAW_STIFFNESS])
         .collect()
     }
 }
@@ -167,12 +167,12 @@ pub(super) fn draw(book: &Workbook, entry: &Entry, shown: Shown, over: Over) -> 
         Over::Conicity => (book.conicity_axis(), case.wheel_rail.conicity, "conicity"),
         Over::Bending => {
             let [axis, _] = book.stiffness_axes();
-            let at = Parameter::PrimaryBendingStiffness.get(case);
+            let at = Parameter::PRIMARY_BENDING_STIFFNESS.get(case);
             (axis, at, "primary bending stiffness")
         }
         Over::Lateral => {
             let [_, axis] = book.stiffness_axes();
-            let at = Parameter::PrimaryLateralStiffness.get(case);
+            let at = Parameter::PRIMARY_LATERAL_STIFFNESS.get(case);
             (axis, at, "primary lateral stiffness")
         }
         Over::Speed => (book.speed_axis(), speed, "speed"),

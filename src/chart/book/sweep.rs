@@ -63,7 +63,7 @@ impl Workbook<'_> {
     pub fn over_conicity(&self) -> &Sweep {
         self.over_conicity.get_or_init(|| {
             let values = Scale::Linear.spread(CONICITY_RANGE, SWEEP);
-            self.sweep(Parameter::Conicity, values)
+            self.sweep(Parameter::CONICITY, values)
         })
     }
 
@@ -72,7 +72,7 @@ impl Workbook<'_> {
         self.over_bending.get_or_init(|| {
             let [axis, _] = self.stiffness_axes();
             let values = axis.scale.spread(axis.range, SWEEP);
-            self.sweep(Parameter::PrimaryBendingStiffness, values)
+            self.sweep(Parameter::PRIMARY_BENDING_STIFFNESS, values)
         })
     }
 
@@ -81,7 +81,7 @@ impl Workbook<'_> {
         self.over_lateral.get_or_init(|| {
             let [_, axis] = self.stiffness_axes();
             let values = axis.scale.spread(axis.range, SWEEP);
-            self.sweep(Parameter::PrimaryLateralStiffness, values)
+            self.sweep(Parameter::PRIMARY_LATERAL_STIFFNESS, values)
         })
     }
 
@@ -94,7 +94,7 @@ impl Workbook<'_> {
                 .map(|conicity| {
                     let values = Scale::Linear.spread(range, SPEEDS);
                     let rides = self.each(&values, |v| {
-                        let mut case = self.with(&[(Parameter::Conicity, conicity)]);
+                        let mut case = self.with(&[(Parameter::CONICITY, conicity)]);
                         case.service.speed = *v;
                         lateral_ride(&case)
                     });

@@ -147,9 +147,9 @@ pub(super) fn draw(
 fn fixed(plane: Plane) -> &'static [Parameter] {
     match plane {
         Plane::Lateral => &[
-            Parameter::Conicity,
-            Parameter::PrimaryBendingStiffness,
-            Parameter::SecondaryYawStiffness,
+            Parameter::CONICITY,
+            Parameter::PRIMARY_BENDING_STIFFNESS,
+            Parameter::SECONDARY_YAW_STIFFNESS,
         ],
         Plane::Vertical => &[],
     }

@@ -8,7 +8,7 @@ use crate::{
         curving::{CurveStatus, CurvingLimits, CurvingState, Limit, ServiceCurve, level_curves},
         gradients::{
             Constants,
-            curving::{CurveChange, CurvingTangents},
+            curving::{CurveChange, CurvingTangents, WheelChange},
         },
     },
     index::Index,
@@ -22,8 +22,15 @@ pub(super) struct Curve {
     state: CurvingState,
     /// Its change by each constant.
     changes: Option<Vec<CurveChange>>,
-    /// Flange clearance, m.
+    /// Flange clearance, m, and its change by each constant.
     clearance: f64,
+    clearances: Vec<f64>,
+}
+
+/// Change of the flange clearance by each constant.
+fn clearances(case: &Case, constants: &Constants) -> Vec<f64> {
+    let of = |case: &Case| case.wheel_rail.flange_clearance;
+    constants.slopes(of(case), of)
 }
 
 /// The curving models of a case, built when first asked for.
@@ -73,8 +80,9 @@ impl<'a> Curves<'a> {
         self.limits().ok()?;
         let (constants, (model, _)) = (self.constants?, self.limits.as_ref()?);
         let tangents = CurvingTangents::new(model, constants, 0.0);
+        let clearances = clearances(self.case, constants);
         let of = |(limit, degree): &(Limit, Option<f64>)| match degree.filter(|d| *d > 0.0) {
-            Some(degree) => tangents.limit(*limit, degree),
+            Some(degree) => tangents.limit(*limit, degree, &clearances),
             None => Some(vec![0.0; constants.len()]),
         };
         limits.iter().map(of).collect()
@@ -149,6 +157,9 @@ impl Curve {
         let cant_deficiency = case.service.cant_deficiency();
         let model = CurvingModel::new(case, cant_deficiency).map_err(no_curve)?;
         let clearance = case.wheel_rail.flange_clearance;
+        let clearances = by
+            .as_ref()
+            .map_or_else(Vec::new, |(constants, _)| clearances(case, constants));
         let changes = by.and_then(|(constants, degrees)| {
             CurvingTangents::new(&model, constants, cant_deficiency).state(degree, &degrees)
         });
@@ -156,6 +167,7 @@ impl Curve {
             state: CurvingState::of(&model, clearance, degree, cant_deficiency),
             changes,
             clearance,
+            clearances,
         })
     }
 
@@ -174,11 +186,12 @@ impl Curve {
         let state = &self.state;
         match index {
             Index::CurveLimitRatio => {
-                return self.graded(&state.limit_ratios, |by| {
+                return self.graded(&state.limit_ratios, |p, by| {
                     let change = |limit| match limit {
                         Limit::Flange(i) => {
-                            let outward = state.wheelset_lateral[i].signum();
-                            outward * by.wheelset_lateral[i] / self.clearance
+                            let y = state.wheelset_lateral[i];
+                            let narrower = y.abs() / self.clearance * self.clearances[p];
+                            (y.signum() * by.wheelset_lateral[i] - narrower) / self.clearance
                         }
                         Limit::Slip(i, side) => by.wheels[i][side as usize].adhesion_used,
                     };
@@ -188,7 +201,7 @@ impl Curve {
             Index::AdhesionUsed => {
                 let wheels = state.wheels.iter().flatten();
                 let values: Vec<f64> = wheels.map(|wheel| wheel.adhesion_used).collect();
-                return self.graded(&values, |by| {
+                return self.graded(&values, |_, by| {
                     let wheels = by.wheels.iter().flatten();
                     wheels.map(|wheel| wheel.adhesion_used).collect()
                 });
@@ -200,15 +213,15 @@ impl Curve {
         let ratios = sums
             .iter()
             .map(|[lateral, vertical]| lateral.abs() / vertical);
-        self.graded(&ratios.collect::<Vec<f64>>(), |by| {
+        self.graded(&ratios.collect::<Vec<f64>>(), |_, by| {
             let pairs = wheels.iter().zip(&sums);
-            // The loads do not depend on the suspension.
             let change = |(wheels, [lateral, vertical]): (&Vec<(usize, usize)>, &[f64; 2])| {
-                let sum: f64 = wheels
-                    .iter()
-                    .map(|&(i, side)| by.wheels[i][side].lateral)
-                    .sum();
-                sum / vertical * lateral.signum()
+                let of = |change: fn(&WheelChange) -> f64| -> f64 {
+                    let wheels = wheels.iter();
+                    wheels.map(|&(i, side)| change(&by.wheels[i][side])).sum()
+                };
+                let heavier = lateral.abs() / vertical * of(|wheel| wheel.vertical);
+                (of(|wheel| wheel.lateral) * lateral.signum() - heavier) / vertical
             };
             pairs.map(change).collect()
         })
@@ -216,9 +229,14 @@ impl Curve {
 
     /// Pieces of values, and of what the change of the vehicle in the curve by each constant makes of
     /// them.
-    fn graded(&self, values: &[f64], change: impl Fn(&CurveChange) -> Vec<f64>) -> Vec<Piece> {
-        let changes = self.changes.as_ref();
-        let by: Option<Vec<Vec<f64>>> = changes.map(|all| all.iter().map(change).collect());
+    fn graded(
+        &self,
+        values: &[f64],
+        change: impl Fn(usize, &CurveChange) -> Vec<f64>,
+    ) -> Vec<Piece> {
+        let changes = self.changes.as_ref().map(|all| all.iter().enumerate());
+        let by: Option<Vec<Vec<f64>>> =
+            changes.map(|all| all.map(|(p, by)| change(p, by)).collect());
         pieces(values, by.as_deref())
     }
 }

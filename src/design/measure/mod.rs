@@ -196,9 +196,11 @@ impl<'a> Job<'a> {
                 Failure::Unstable
             });
         }
-        if let Some(constants) = self.constants {
+        if let Some(constants) = self.constants
+            && let Some(tangents) = constants.lateral(&lateral.model)
+        {
             lateral.constants = Some(constants);
-            lateral.tangents = constants.lateral(&lateral.model);
+            lateral.tangents = tangents;
             lateral.graded = true;
         }
         let (stability, rides) = rayon::join(
@@ -302,7 +304,12 @@ impl<'a> Vertical<'a> {
             let model = VerticalModel::new(self.case);
             let poles = Poles::at(&model.forced, self.case.service.speed)
                 .map_err(|_| Failure::Eigenvalues)?;
-            let tangents = self.constants.map(|constants| constants.vertical(&model));
+            let tangents = self
+                .constants
+                .and_then(|constants| constants.vertical(&model));
+            if tangents.is_none() {
+                self.constants = None;
+            }
             self.model = Some((model, poles, tangents.unwrap_or_default()));
         }
         self.model.as_ref().ok_or(Failure::Eigenvalues)

@@ -2,7 +2,9 @@
 
 use super::{BANDS, Lateral, Measured, Vertical, curving::Curve, no_ride, pieces};
 use crate::{
+    case::Case,
     evaluate::{
+        gradients::Constants,
         limits::PEAK,
         passenger_ride::PassengerRide,
         ride::{LateralRide, VerticalRide, average},
@@ -89,6 +91,7 @@ impl Lateral<'_> {
 
 impl Vertical<'_> {
     pub(super) fn ride(&mut self, index: Index) -> Measured {
+        self.model()?;
         let (case, graded) = (self.case, self.constants.is_some());
         if index == Index::VerticalIsoRatio {
             let (model, poles, tangents) = self.model()?;
@@ -103,13 +106,30 @@ impl Vertical<'_> {
             self.ride = Some(ride.map_err(no_ride)?);
         }
         let ride = self.ride.as_ref().ok_or(Failure::Integration)?;
-        let load = case.vehicle.wheel_load();
-        Ok(made_of(ride, graded, |ride| match index {
+        let mut made = made_of(ride, graded, |ride| match index {
             Index::VerticalAcceleration => vec![average(&ride.acceleration)],
             Index::SecondaryVerticalStroke => peaks(&ride.secondary_stroke),
             Index::PrimaryVerticalStroke => peaks(&ride.primary_stroke),
-            _ => peaks(&ride.wheel_load.map(|rms| rms / load)),
-        }))
+            _ => peaks(&ride.wheel_load),
+        });
+        if index == Index::WheelLoadVariation {
+            over_static_load(&mut made, case, self.constants);
+        }
+        Ok(made)
+    }
+}
+
+/// Divides dynamic loads of wheels, wheelsets 1–4, by the static ones, and their gradients accordingly.
+fn over_static_load(pieces: &mut [Piece], case: &Case, constants: Option<&Constants>) {
+    for piece in pieces {
+        let of = |case: &Case| case.vehicle.axle_load_of(piece.index / 2) / 2.0;
+        let load = of(case);
+        piece.value /= load;
+        if let (Some(gradient), Some(constants)) = (&mut piece.gradient, constants) {
+            for (slope, of_load) in gradient.iter_mut().zip(constants.slopes(load, of)) {
+                *slope = (*slope - piece.value * of_load) / load;
+            }
+        }
     }
 }
 

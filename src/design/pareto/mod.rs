@@ -165,7 +165,7 @@ fn parameters(tracers: &[Tracer]) -> Vec<Parameter> {
     let own = tracers.first().map(|tracer| tracer.study.parameters());
     let mut parameters = own.unwrap_or_default().to_vec();
     if tracers.len() > 1 {
-        parameters.push(Parameter::Conicity);
+        parameters.push(Parameter::CONICITY);
     }
     parameters
 }

@@ -7,7 +7,7 @@ use crate::{
     parameter::Parameter,
     spec::{
         DesignSpace, Freedom, Interval,
-        keys::{self, Key},
+        keys::{self, CaseKey},
     },
     units::Range,
 };
@@ -47,7 +47,7 @@ pub struct Factors {
     base: Case,
     open: Vec<(Parameter, Interval)>,
     rules: Vec<(Parameter, Rule)>,
-    inputs: Vec<&'static Key<Case>>,
+    inputs: Vec<&'static CaseKey>,
     list: Vec<Factor>,
     spread: f64,
     derived: Derived,
@@ -157,7 +157,7 @@ impl Factors {
             if key.table() == "service" || self.derived.contains(key.path) {
                 continue;
             }
-            let Some(value) = (key.get)(&self.base).filter(|value| *value != 0.0) else {
+            let Some(value) = key.get(&self.base).filter(|value| *value != 0.0) else {
                 continue;
             };
             let bounds = around(value, self.spread, key.range);
@@ -180,11 +180,11 @@ impl Factors {
     }
 
     /// Whether the design gives an input its value, whatever the base says.
-    fn determined(&self, key: &Key<Case>, other: f64) -> bool {
+    fn determined(&self, key: &CaseKey, other: f64) -> bool {
         let middle = vec![0.5; self.open.len()];
         let mut moved = self.base.clone();
-        (key.set)(&mut moved, other);
-        let designed = |base: &Case| (key.get)(&self.study(base).design(&middle));
+        key.set(&mut moved, other);
+        let designed = |base: &Case| key.get(&self.study(base).design(&middle));
         designed(&moved) == designed(&self.base)
     }
 
@@ -209,7 +209,7 @@ impl Factors {
         let mut base = self.base.clone();
         let varied = self.inputs.iter().zip(&self.list[self.open.len()..]);
         for ((key, factor), x) in varied.zip(inputs) {
-            (key.set)(&mut base, factor.variable.value(*x));
+            key.set(&mut base, factor.variable.value(*x));
         }
         self.derived.follow(&mut base);
         self.study(&base).design(design)

@@ -1,13 +1,11 @@
-//! From derivatives by the constants of Table 4.1.1 to gradients over a study's variables.
+//! From derivatives by the numbers of a case to gradients over a study's variables.
 
 use super::Study;
-use crate::{
-    case::Case, evaluate::gradients::five_point, optimize::problem::Scale, parameter::Parameter,
-};
+use crate::{evaluate::gradients::five_point, optimize::problem::Scale, parameter::Parameter};
 
-/// How the constants of a case follow the variables at a design.
+/// Derivatives of the numbers of a case by the variables at a design.
 pub(super) struct Chain {
-    /// Constants that move.
+    /// Numbers that move.
     pub constants: Vec<Parameter>,
     /// Derivative of each by the scaled coordinate of each parameter.
     by_parameters: Vec<Vec<f64>>,
@@ -23,24 +21,17 @@ const STEP: f64 = 1e-3;
 /// A relative change over the whole range below this is rounding.
 const ROUNDING: f64 = 1e-10;
 
-/// Whether a case that has been moved is another one with its constants of Table 4.1.1.
-fn follows_from_the_ten(case: &Case, moved: &Case) -> bool {
-    let mut set = case.clone();
-    for constant in Parameter::TEN {
-        constant.set(&mut set, constant.get(moved));
-    }
-    set == *moved
-}
-
 impl Chain {
-    /// At scaled coordinates `x`, in a condition. `None` if a variable changes anything but the
-    /// constants of Table 4.1.1: derivatives by these are then not the whole.
-    pub fn new(study: &Study, x: &[f64], condition: usize) -> Option<Self> {
+    /// At scaled coordinates `x`, in a condition.
+    pub fn new(study: &Study, x: &[f64], condition: usize) -> Self {
         let count = study.parameters.len();
         let mut values = study.values(x);
         values.truncate(count);
+        // Numbers that the case has: the others follow from these.
         let case = study.in_condition(&study.with_values(&values), condition);
-        let mut by_parameters = vec![vec![0.0; count]; Parameter::TEN.len()];
+        let has = |p: &Parameter| p.key_of_constant().get(&case).is_some();
+        let numbers: Vec<Parameter> = Parameter::plain().filter(has).collect();
+        let mut by_parameters = vec![vec![0.0; count]; numbers.len()];
         for (i, variable) in study.variables.iter().take(count).enumerate() {
             let [low, high] = variable.bounds;
             let step = STEP
@@ -57,37 +48,33 @@ impl Chain {
                 study.in_condition(&study.with_values(&moved), condition)
             };
             let around = [-2.0, -1.0, 1.0, 2.0].map(at);
-            if !around
-                .iter()
-                .all(|moved| follows_from_the_ten(&case, moved))
-            {
-                return None;
-            }
-            let around = around.map(|case| Parameter::TEN.map(|constant| constant.get(&case)));
             let slope = variable.slope(values[i]);
-            for (k, by) in by_parameters.iter_mut().enumerate() {
-                let at = around.map(|constants| constants[k]);
+            for (number, by) in numbers.iter().zip(&mut by_parameters) {
+                let at = around.each_ref().map(|case| number.get(case));
                 let change = slope * five_point(at, step);
                 if change.abs() > ROUNDING * at[0].abs() {
                     by[i] = change;
                 }
             }
         }
-        let moves = |k: &usize| by_parameters[*k].iter().any(|slope| *slope != 0.0);
-        let moving: Vec<usize> = (0..Parameter::TEN.len()).filter(moves).collect();
+        let (constants, by_parameters) = numbers
+            .into_iter()
+            .zip(by_parameters)
+            .filter(|(_, by)| by.iter().any(|slope| *slope != 0.0))
+            .unzip();
         let speed = study.is_lifted.then(|| {
             let variable = &study.variables[count];
             variable.slope(variable.value(x[count]))
         });
-        Some(Self {
-            constants: moving.iter().map(|k| Parameter::TEN[*k]).collect(),
-            by_parameters: moving.iter().map(|k| by_parameters[*k].clone()).collect(),
+        Self {
+            constants,
+            by_parameters,
             count,
             speed,
-        })
+        }
     }
 
-    /// Gradient over the variables of what has such derivatives by the constants, and behind them
+    /// Gradient over the variables of what has such derivatives by the numbers, and behind them
     /// perhaps one by a speed, which is the lifted one or is not.
     pub fn gradient(&self, derivatives: &[f64], is_lifted: bool) -> Vec<f64> {
         let mut gradient = vec![0.0; self.count];

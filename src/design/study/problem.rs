@@ -67,7 +67,7 @@ impl Study {
         let case = self.in_condition(case, condition);
         let chain = match detail {
             Detail::Values => None,
-            Detail::Gradients => Chain::new(self, x, condition),
+            Detail::Gradients => Some(Chain::new(self, x, condition)),
         };
         let all = match &chain {
             None => measure(&case, &wanted)?,

@@ -5,8 +5,8 @@
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
-use super::{CurvingModel, Side};
-use crate::dynamics::{Row, lateral};
+use super::{CurvingModel, Side, form};
+use crate::dynamics::element::{Element, Name};
 
 /// State of the secondary yaw element of a truck.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,15 +104,10 @@ impl CurvingModel {
         Ok(segments)
     }
 
-    /// Index pairs of the yaw stretch ψ_c − ψ_t of truck `j`.
-    fn yaw_indices(&self, j: usize) -> (usize, usize) {
-        (self.q.len() - 2, 10 + j)
-    }
-
-    /// l_s/R per unit curvature, upper sign for the leading truck.
-    fn yaw_offset(&self, j: usize) -> f64 {
-        let l_s = self.vehicle.carbody.half_truck_spacing;
-        if j == 0 { l_s } else { -l_s }
+    /// The yaw element of truck `j` with its stretch per unit of curvature, and its breakaway torque, N m.
+    fn yaw_element(&self, j: usize) -> (&Element, f64, f64) {
+        let (element, offset) = self.element(Name::SecondaryYaw(j));
+        (element, offset, element.breakaway.unwrap_or(f64::INFINITY))
     }
 
     fn factor(&self, state: [Breakaway; 2]) -> LU<f64, Dyn, Dyn> {
@@ -121,15 +116,16 @@ impl CurvingModel {
 
     /// Stiffness with the yaw elements in some state, 15 × 15.
     pub(crate) fn stiffness_in(&self, state: [Breakaway; 2]) -> DMatrix<f64> {
-        let k = self.vehicle.suspension.secondary.yaw_stiffness;
         let mut stiffness = self.stiffness.clone();
         for (j, state) in state.into_iter().enumerate() {
             if state == Breakaway::Stuck {
-                let (c, t) = self.yaw_indices(j);
-                stiffness[(c, c)] += k;
-                stiffness[(t, t)] += k;
-                stiffness[(c, t)] -= k;
-                stiffness[(t, c)] -= k;
+                let (element, ..) = self.yaw_element(j);
+                let k = element.law.steady_stiffness();
+                for &(i, row) in element.row.terms() {
+                    for &(j, stretch) in element.stretch.terms() {
+                        stiffness[(i, j)] += k * row * stretch;
+                    }
+                }
             }
         }
         stiffness
@@ -137,21 +133,16 @@ impl CurvingModel {
 
     /// Loads with the yaw elements in some state: at zero curvature, and per unit curvature.
     pub(crate) fn loads_in(&self, state: [Breakaway; 2]) -> [DVector<f64>; 2] {
-        let secondary = &self.vehicle.suspension.secondary;
-        let (k, torque) = (secondary.yaw_stiffness, secondary.yaw_breakaway_torque);
         let (mut load, mut slope) = (self.load.clone(), self.load_per_curvature.clone());
         for (j, state) in state.into_iter().enumerate() {
-            let (c, t) = self.yaw_indices(j);
-            let constant = match state {
-                Breakaway::Stuck => 0.0,
-                Breakaway::SlippingPositive => torque,
-                Breakaway::SlippingNegative => -torque,
-            };
-            load[c] -= constant;
-            load[t] += constant;
-            if state == Breakaway::Stuck {
-                slope[c] -= k * self.yaw_offset(j);
-                slope[t] += k * self.yaw_offset(j);
+            let (element, offset, torque) = self.yaw_element(j);
+            let k = element.law.steady_stiffness();
+            for &(i, row) in element.row.terms() {
+                match state {
+                    Breakaway::Stuck => slope[i] -= row * k * offset,
+                    Breakaway::SlippingPositive => load[i] -= row * torque,
+                    Breakaway::SlippingNegative => load[i] += row * torque,
+                }
             }
         }
         [load, slope]
@@ -165,8 +156,6 @@ impl CurvingModel {
         state: [Breakaway; 2],
         limit: f64,
     ) -> Result<Segment, CurvingError> {
-        let secondary = &self.vehicle.suspension.secondary;
-        let (k, torque) = (secondary.yaw_stiffness, secondary.yaw_breakaway_torque);
         let [load, slope] = self.loads_in(state);
         let at_zero = lu.solve(&load).ok_or(CurvingError::Singular)?;
         let per_curvature = lu.solve(&slope).ok_or(CurvingError::Singular)?;
@@ -175,10 +164,11 @@ impl CurvingModel {
         }
         let mut curvature = [0.0, limit];
         for (j, state) in state.into_iter().enumerate() {
-            let (c, t) = self.yaw_indices(j);
+            let (element, offset, torque) = self.yaw_element(j);
+            let k = element.law.steady_stiffness();
             let elastic = [
-                k * (at_zero[c] - at_zero[t]),
-                k * (per_curvature[c] - per_curvature[t] + self.yaw_offset(j)),
+                k * form(&element.stretch, &at_zero),
+                k * (form(&element.stretch, &per_curvature) + offset),
             ];
             // Each condition reads value + slope·κ ≥ 0.
             let conditions: &[[f64; 2]] = match state {
@@ -201,69 +191,27 @@ impl CurvingModel {
         })
     }
 
-    /// Primary lateral stroke of wheelset `i` at a curvature, m.
-    pub fn primary_lateral_stroke(&self, curvature: f64, i: usize) -> f64 {
-        let rows = self.rows();
-        let b = self.vehicle.truck.half_wheelbase;
-        self.at(&rows.primary_lateral_stretch(i), curvature) + curvature * b * b / 2.0
+    /// Stretch of an element at a curvature, 1/m, m or rad.
+    pub fn stretch_at(&self, name: Name, curvature: f64) -> f64 {
+        let x = self.segment_at(curvature).displacements(curvature);
+        self.stretch(name, &x, curvature)
     }
 
     /// Primary longitudinal stroke of wheelset `i` at a curvature, m: d_p (ψ_t − ψ_w ± b/R).
     pub fn primary_longitudinal_stroke(&self, curvature: f64, i: usize) -> f64 {
-        let truck = &self.vehicle.truck;
-        let b = truck.half_wheelbase;
-        let offset = if i.is_multiple_of(2) { b } else { -b };
-        let yaw = self.at(&(self.q.psi_t(i / 2) - self.q.psi_w(i)), curvature);
-        truck.half_primary_spacing * (yaw + curvature * offset)
-    }
-
-    /// Secondary lateral stroke of truck `j` at a curvature, m.
-    pub fn secondary_lateral_stroke(&self, curvature: f64, j: usize) -> f64 {
-        let x = self.segment_at(curvature).displacements(curvature);
-        self.secondary_lateral_stretch(&x, curvature, j)
-    }
-
-    /// Secondary lateral stretch of truck `j`, m: linear in the coordinates, m and rad, and the
-    /// curvature, 1/m.
-    pub(crate) fn secondary_lateral_stretch(
-        &self,
-        x: &DVector<f64>,
-        curvature: f64,
-        j: usize,
-    ) -> f64 {
-        let l_s = self.vehicle.carbody.half_truck_spacing;
-        let row = self.rows().secondary_lateral_stretch(j);
-        let terms = row.terms().iter().filter(|(i, _)| *i < self.q.len());
-        let stretch: f64 = terms.map(|&(i, c)| c * x[i]).sum();
-        stretch + curvature * l_s * l_s / 2.0
-    }
-
-    fn rows(&self) -> lateral::Builder<'_> {
-        lateral::Builder::on_rails(&self.vehicle, self.contact[0])
-    }
-
-    /// Value of a row over [q, u] with u = 0 (smooth track).
-    fn at(&self, row: &Row, curvature: f64) -> f64 {
-        let segment = self.segment_at(curvature);
-        row.terms()
-            .iter()
-            .filter(|(i, _)| *i < self.q.len())
-            .map(|&(i, c)| c * segment.displacement(i, curvature))
-            .sum()
+        let d_p = self.vehicle.end(i / 2).truck.half_primary_spacing;
+        d_p * self.stretch_at(Name::PrimaryYaw(i), curvature)
     }
 
     /// Torque that the yaw element of truck `j` puts on the truck at a curvature, N m, and its
     /// stretch, rad.
     pub fn secondary_yaw(&self, curvature: f64, j: usize) -> (f64, f64) {
-        let segment = self.segment_at(curvature);
-        let (c, t) = self.yaw_indices(j);
-        let stretch = segment.displacement(c, curvature) - segment.displacement(t, curvature)
-            + curvature * self.yaw_offset(j);
-        let secondary = &self.vehicle.suspension.secondary;
-        let torque = match segment.breakaway[j] {
-            Breakaway::Stuck => secondary.yaw_stiffness * stretch,
-            Breakaway::SlippingPositive => secondary.yaw_breakaway_torque,
-            Breakaway::SlippingNegative => -secondary.yaw_breakaway_torque,
+        let stretch = self.stretch_at(Name::SecondaryYaw(j), curvature);
+        let (element, _, torque) = self.yaw_element(j);
+        let torque = match self.segment_at(curvature).breakaway[j] {
+            Breakaway::Stuck => element.law.steady_stiffness() * stretch,
+            Breakaway::SlippingPositive => torque,
+            Breakaway::SlippingNegative => -torque,
         };
         (torque, stretch)
     }

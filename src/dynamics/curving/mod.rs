@@ -20,7 +20,11 @@ pub use wheel::{Side, WheelForces};
 
 use nalgebra::{DMatrix, DVector};
 
-use super::lateral::{self, Coordinates};
+use super::{
+    Row,
+    element::{Element, Name},
+    lateral::{self, Coordinate, Coordinates},
+};
 use crate::{
     case::{Case, CurvingCreep},
     track::{MAX_DEGREE, curvature_of_degree},
@@ -33,16 +37,18 @@ use crate::{
 pub struct CurvingModel {
     vehicle: Vehicle,
     friction: f64,
-    /// Contact of outer and inner wheels.
-    contact: [Contact; 2],
-    /// Vertical load of outer and inner wheels, N.
-    wheel_load: [f64; 2],
+    /// Contact of outer and inner wheels, of the leading and the trailing truck.
+    contact: [[Contact; 2]; 2],
+    /// Vertical load of outer and inner wheels, N, of the leading and the trailing truck.
+    wheel_load: [[f64; 2]; 2],
     q: Coordinates,
-    /// Stiffness without the secondary yaw elements, N/m etc., 15 × 15.
+    /// Elements of the suspension with their stretch per unit of curvature, m² or rad m.
+    elements: Vec<(Element, f64)>,
+    /// Stiffness without the elements that may slip, N/m etc., 15 × 15.
     stiffness: DMatrix<f64>,
     /// Loads at zero curvature: cant deficiency and, with unequal wheels, their spin.
     load: DVector<f64>,
-    /// Loads per unit curvature, without the secondary yaw elements.
+    /// Loads per unit curvature, without the elements that may slip.
     load_per_curvature: DVector<f64>,
     /// Response to curvature from tangent track to the tightest curve searched.
     segments: Vec<Segment>,
@@ -57,7 +63,8 @@ impl CurvingModel {
     /// state of the yaw elements is consistent.
     pub fn new(case: &Case, cant_deficiency: f64) -> Result<Self, CurvingError> {
         let mut model = Self::unsolved(case, cant_deficiency);
-        let unloaded = |side: &Side| model.wheel_load[*side as usize] <= 0.0;
+        let loads = model.wheel_load;
+        let unloaded = |side: &Side| loads.iter().any(|load| load[*side as usize] <= 0.0);
         if let Some(side) = Side::BOTH.into_iter().find(unloaded) {
             return Err(CurvingError::WheelLifted(side));
         }
@@ -67,30 +74,43 @@ impl CurvingModel {
 
     /// The equations alone.
     pub(crate) fn unsolved(case: &Case, cant_deficiency: f64) -> Self {
-        // The yaw elements between trucks and carbody are added state by state.
-        let mut vehicle = case.vehicle;
-        vehicle.suspension.secondary.yaw_stiffness = 0.0;
+        let vehicle = &case.vehicle;
         let contact = case.wheel_rail.contact();
-        let (q, system) = lateral::suspension_on_rails(&vehicle, contact);
-        let n = q.len();
-        let transfer = load_transfer(&case.vehicle, cant_deficiency);
-        let wheel_load = [1.0, -1.0].map(|s| case.vehicle.wheel_load() + s * transfer);
+        let (q, elements) = lateral::suspension_on_rails(vehicle, contact);
+        let n = q.massive();
+        let with_offset = |element: Element| {
+            let offset = q.offset_in_curve(&element.row, vehicle);
+            (element, offset)
+        };
+        let mean = vehicle.wheel_load();
+        let wheel_load = [0, 1].map(|j| {
+            let (own, transfer) = (
+                vehicle.axle_load_of(j) / 2.0,
+                load_transfer(vehicle, j, cant_deficiency),
+            );
+            [1.0, -1.0].map(|s| own + s * transfer)
+        });
+        let contact = [0, 1].map(|j| {
+            wheel_load[j].map(|load| match case.model.curving_creep {
+                CurvingCreep::Static if vehicle.trailing.is_none() => contact,
+                CurvingCreep::Static => contact.at_load(vehicle.axle_load_of(j) / 2.0 / mean),
+                CurvingCreep::LoadDependent => contact.at_load(load / mean),
+            })
+        });
         let mut model = Self {
-            vehicle: case.vehicle,
+            vehicle: vehicle.clone(),
             friction: case.wheel_rail.friction,
-            contact: wheel_load.map(|load| match case.model.curving_creep {
-                CurvingCreep::Static => contact,
-                CurvingCreep::LoadDependent => at_load(contact, load / case.vehicle.wheel_load()),
-            }),
+            contact,
             wheel_load,
+            elements: elements.into_iter().map(with_offset).collect(),
             q,
-            stiffness: system.stiffness.columns(0, n).into_owned(),
+            stiffness: DMatrix::zeros(n, n),
             load: DVector::zeros(n),
             load_per_curvature: DVector::zeros(n),
             segments: Vec::new(),
         };
+        model.add_suspension();
         model.add_weights(cant_deficiency);
-        model.add_curved_track();
         for i in 0..4 {
             model.add_wheelset(i);
         }
@@ -110,66 +130,71 @@ impl CurvingModel {
         &self.segments[i.min(self.segments.len() - 1)]
     }
 
-    /// Body weights × cant deficiency, outward at each c.g.
-    fn add_weights(&mut self, cant_deficiency: f64) {
-        let vehicle = &self.vehicle;
-        let mut add = |row: crate::dynamics::Row, mass: f64| {
-            for &(i, c) in row.terms() {
-                self.load[i] += c * mass * GRAVITY * cant_deficiency;
-            }
-        };
-        for i in 0..4 {
-            add(self.q.y_w(i), vehicle.wheelset.mass);
+    /// Place of wheelset `i` in displacements of the model, or in their change.
+    pub(crate) fn place(&self, x: &DVector<f64>, i: usize) -> Place {
+        Place {
+            y: x[self.q.index(Coordinate::WheelsetLateral(i))],
+            psi: x[self.q.index(Coordinate::WheelsetYaw(i))],
         }
-        for j in 0..2 {
-            add(self.q.y_t(j), vehicle.truck.mass);
-        }
-        add(self.q.y_c(), vehicle.carbody.mass);
     }
 
-    /// Stretches that the curved centre line puts into the springs: primary lateral b²/(2R),
-    /// primary yaw ±b/R, secondary lateral l_s²/(2R); upper sign for the leading one.
-    fn add_curved_track(&mut self) {
-        let vehicle = self.vehicle;
-        let (primary, secondary) = (vehicle.suspension.primary, vehicle.suspension.secondary);
-        let (b, l_s) = (
-            vehicle.truck.half_wheelbase,
-            vehicle.carbody.half_truck_spacing,
-        );
-        let d_p2 = vehicle.truck.half_primary_spacing.powi(2);
-        let rows = lateral::Builder::on_rails(&vehicle, self.contact[0]);
-        let mut add = |row: crate::dynamics::Row, force: f64| {
-            for &(i, c) in row.terms() {
-                self.load_per_curvature[i] -= c * force;
+    /// Body weights × cant deficiency, outward at each c.g.
+    fn add_weights(&mut self, cant_deficiency: f64) {
+        let masses = self.q.masses(&self.vehicle);
+        for (index, mass) in masses.into_iter().enumerate().take(self.load.len()) {
+            if self.q.coordinate(index).is_lateral() {
+                self.load[index] += mass * GRAVITY * cant_deficiency;
             }
-        };
-        for i in 0..4_usize {
-            let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
-            add(
-                rows.primary_lateral_row(i),
-                2.0 * primary.lateral_stiffness * b * b / 2.0,
-            );
-            add(
-                self.q.psi_t(i / 2) - self.q.psi_w(i),
-                2.0 * d_p2 * primary.longitudinal_stiffness * sign * b,
-            );
         }
-        for j in 0..2 {
-            add(
-                rows.secondary_lateral_row(j),
-                2.0 * secondary.lateral_stiffness * l_s * l_s / 2.0,
-            );
+    }
+
+    /// Elements that never slip: their stiffness, and the stretch that the curved centre line puts into them.
+    /// Dampers carry no steady load.
+    fn add_suspension(&mut self) {
+        let n = self.load.len();
+        let fixed = self.elements.iter().filter(|(e, _)| e.breakaway.is_none());
+        for (element, offset) in fixed {
+            let k = element.law.steady_stiffness();
+            for &(i, row) in element.row.terms() {
+                for &(j, stretch) in element.stretch.terms().iter().filter(|(j, _)| *j < n) {
+                    self.stiffness[(i, j)] += k * row * stretch;
+                }
+                self.load_per_curvature[i] -= row * k * offset;
+            }
         }
+    }
+
+    /// The element with a name and its stretch per unit of curvature.
+    fn element(&self, name: Name) -> (&Element, f64) {
+        let found = self
+            .elements
+            .iter()
+            .find(|(element, _)| element.name == name);
+        let (element, offset) = found.expect("an element of the lateral model");
+        (element, *offset)
+    }
+
+    /// Stretch of an element for displacements of the model, m or rad, on smooth track at a curvature, 1/m.
+    pub(crate) fn stretch(&self, name: Name, x: &DVector<f64>, curvature: f64) -> f64 {
+        let (element, offset) = self.element(name);
+        form(&element.stretch, x) + curvature * offset
     }
 }
 
-/// Load that every axle's outer wheel gains and its inner wheel loses, N.
+/// Value of a linear form in displacements, without inputs.
+fn form(row: &Row, x: &DVector<f64>) -> f64 {
+    let terms = row.terms().iter().filter(|(i, _)| *i < x.len());
+    terms.map(|&(i, c)| c * x[i]).sum()
+}
+
+/// Load that the outer wheel of every axle of truck `j` gains and the inner wheel loses, N.
 ///
 /// ```math
 /// ΔN = φ_d g [M_c (r0 + h_tp + h_ts + h_cs)/4 + M_t (r0 + h_tp)/2 + M_w r0] / (2a)
 /// ```
-fn load_transfer(vehicle: &Vehicle, cant_deficiency: f64) -> f64 {
-    let (c, t, w) = (&vehicle.carbody, &vehicle.truck, &vehicle.wheelset);
+fn load_transfer(vehicle: &Vehicle, j: usize, cant_deficiency: f64) -> f64 {
+    let end = vehicle.end(j);
+    let (c, t, w) = (&vehicle.carbody, &end.truck, &end.wheelset);
     let truck_height = w.rolling_radius + t.height_above_primary;
     let carbody_height = truck_height + t.depth_below_secondary + c.height_above_secondary;
     let moment =
@@ -180,19 +205,6 @@ fn load_transfer(vehicle: &Vehicle, cant_deficiency: f64) -> f64 {
 /// Cant deficiency of either sign at which the load transfer takes a wheel's static load away,
 /// ΔN = N, rad; infinite where no load is transferred.
 pub fn lifting_cant_deficiency(vehicle: &Vehicle) -> f64 {
-    vehicle.wheel_load() / load_transfer(vehicle, 1.0).abs()
-}
-
-/// Creep coefficients of a wheel whose load is `ratio` times its static one (3.4.5):
-/// f11, f33 ∝ N^⅔, f12 ∝ N, f22 ∝ N^(4/3).
-fn at_load(contact: Contact, ratio: f64) -> Contact {
-    // A wheel without load has no creep forces; the model of such a vehicle is not solved.
-    let ratio = ratio.max(0.0);
-    Contact {
-        f11: contact.f11 * ratio.powf(2.0 / 3.0),
-        f12: contact.f12 * ratio,
-        f22: contact.f22 * ratio.powf(4.0 / 3.0),
-        f33: contact.f33 * ratio.powf(2.0 / 3.0),
-        ..contact
-    }
+    let of = |j| vehicle.axle_load_of(j) / 2.0 / load_transfer(vehicle, j, 1.0).abs();
+    f64::min(of(0), of(1))
 }

@@ -11,9 +11,8 @@
 //! The normal forces N0 ± ΔN of the two wheels add, for the axle, −(W_A/a)(a11 + Δ) y − 2 ΔN δ0
 //! laterally and +W_A a δ0 ψ in yaw.
 
-use nalgebra::DVector;
-
 use super::{CurvingModel, Segment};
+use crate::dynamics::lateral::Coordinate;
 
 /// Which wheel of a wheelset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,25 +76,16 @@ pub(crate) struct Place {
     pub psi: f64,
 }
 
-impl Place {
-    /// Of wheelset `i` in the coordinates of the model, or in their change.
-    pub fn of(x: &DVector<f64>, i: usize) -> Self {
-        Self {
-            y: x[i],
-            psi: x[4 + i],
-        }
-    }
-}
-
 impl CurvingModel {
     /// Adds the forces of wheelset `i`, wheel by wheel, to stiffness and loads.
     pub(super) fn add_wheelset(&mut self, i: usize) {
         let w = self.vehicle.wheelset;
         let (a, r0) = (w.half_contact_distance, w.rolling_radius);
-        let axle_load = self.vehicle.axle_load();
-        let (y, psi) = (i, 4 + i);
+        let axle_load = self.vehicle.axle_load_of(i / 2);
+        let y = self.q.index(Coordinate::WheelsetLateral(i));
+        let psi = self.q.index(Coordinate::WheelsetYaw(i));
         for side in Side::BOTH {
-            let (s, c) = (side.sign(), self.contact[side as usize]);
+            let (s, c) = (side.sign(), self.contact[i / 2][side as usize]);
             let spin_per_y = c.delta / (a * r0);
             let spin = s * c.delta_0 / r0;
             self.stiffness[(y, psi)] -= c.f11;
@@ -108,28 +98,35 @@ impl CurvingModel {
             self.load[psi] += c.f22 * spin;
             self.load_per_curvature[psi] += a * a * c.f33 + c.f22;
         }
-        let c = self.contact[0];
+        let (c, [outer, inner]) = (self.contact[i / 2][0], self.wheel_load[i / 2]);
         self.stiffness[(y, y)] += axle_load / a * (c.a11 + c.delta);
         self.stiffness[(psi, psi)] -= axle_load * a * c.delta_0;
         // Equal loads lean on opposite contact angles and cancel; the transferred load 2 ΔN does not.
-        self.load[y] -= (self.wheel_load[0] - self.wheel_load[1]) * c.delta_0;
+        self.load[y] -= (outer - inner) * c.delta_0;
     }
 
     /// Creep forces (F_x, F_y) of a wheel as affine functions of curvature on a segment:
     /// [at zero curvature, per unit curvature], N and N m.
     pub(crate) fn creep_forces(&self, segment: &Segment, i: usize, side: Side) -> [[f64; 2]; 2] {
         [
-            self.creep(Place::of(&segment.at_zero, i), 0.0, 1.0, side),
-            self.creep(Place::of(&segment.per_curvature, i), 1.0, 0.0, side),
+            self.creep(i, self.place(&segment.at_zero, i), 0.0, 1.0, side),
+            self.creep(i, self.place(&segment.per_curvature, i), 1.0, 0.0, side),
         ]
     }
 
-    /// Creep forces (F_x, F_y) of a wheel, linear in the place of its wheelset, the curvature, 1/m, and
-    /// the share of the profile's own spin.
-    pub(crate) fn creep(&self, place: Place, curvature: f64, profile: f64, side: Side) -> [f64; 2] {
+    /// Creep forces (F_x, F_y) of a wheel of wheelset `i`, linear in the place of the wheelset, the curvature,
+    /// 1/m, and the share of the profile's own spin.
+    pub(crate) fn creep(
+        &self,
+        i: usize,
+        place: Place,
+        curvature: f64,
+        profile: f64,
+        side: Side,
+    ) -> [f64; 2] {
         let w = self.vehicle.wheelset;
         let (a, r0) = (w.half_contact_distance, w.rolling_radius);
-        let (s, c) = (side.sign(), self.contact[side as usize]);
+        let (s, c) = (side.sign(), self.contact[i / 2][side as usize]);
         let Place { y, psi } = place;
         let spin = curvature + profile * s * c.delta_0 / r0 + c.delta * y / (a * r0);
         [
@@ -139,16 +136,21 @@ impl CurvingModel {
     }
 
     /// Lateral part of the normal force on a wheel, linear likewise, N.
-    pub(crate) fn normal(&self, place: Place, profile: f64, side: Side) -> f64 {
-        let c = self.contact[side as usize];
+    pub(crate) fn normal(&self, i: usize, place: Place, profile: f64, side: Side) -> f64 {
+        let c = self.contact[i / 2][side as usize];
         let a = self.vehicle.wheelset.half_contact_distance;
         let angle = profile * side.sign() * c.delta_0 + (c.delta + c.a11) * place.y / a;
-        -self.wheel_load[side as usize] * angle
+        -self.vertical(i, side) * angle
     }
 
-    /// μN of the wheels on a side, N.
-    pub fn adhesion_limit(&self, side: Side) -> f64 {
-        self.friction * self.wheel_load[side as usize]
+    /// Vertical load of a wheel of wheelset `i`, N.
+    pub fn vertical(&self, i: usize, side: Side) -> f64 {
+        self.wheel_load[i / 2][side as usize]
+    }
+
+    /// μN of a wheel of wheelset `i`, N.
+    pub fn adhesion_limit(&self, i: usize, side: Side) -> f64 {
+        self.friction * self.vertical(i, side)
     }
 
     /// Forces on a wheel of wheelset `i` (0–3) at a curvature, 1/m.
@@ -156,16 +158,13 @@ impl CurvingModel {
         let segment = self.segment_at(curvature);
         let [zero, slope] = self.creep_forces(segment, i, side);
         let [f_x, f_y] = [0, 1].map(|k| zero[k] + curvature * slope[k]);
-        let place = Place {
-            y: segment.displacement(i, curvature),
-            psi: segment.displacement(4 + i, curvature),
-        };
+        let place = self.place(&segment.displacements(curvature), i);
         WheelForces {
             longitudinal_creep: f_x,
             lateral_creep: f_y,
-            lateral: f_y + self.normal(place, 1.0, side),
-            vertical: self.wheel_load[side as usize],
-            adhesion_used: f_x.hypot(f_y) / self.adhesion_limit(side),
+            lateral: f_y + self.normal(i, place, 1.0, side),
+            vertical: self.vertical(i, side),
+            adhesion_used: f_x.hypot(f_y) / self.adhesion_limit(i, side),
         }
     }
 }

@@ -100,6 +100,12 @@ impl Stiffness {
         self.pattern.order()
     }
 
+    /// Degree of det D(s): the number of first-order states, two of a coordinate with mass and one of a massless
+    /// one.
+    pub fn degree(&self) -> usize {
+        self.order() + self.massive.len()
+    }
+
     /// Room for its factors.
     pub fn factors(&self) -> Factors {
         Factors {
@@ -141,7 +147,11 @@ impl Stiffness {
             ) = (self.entries[k], factors.damping[k]);
             (c / m).max((stiffness / m).max(0.0).sqrt())
         });
-        massive.fold(0.0, f64::max)
+        let massless = self.entries.iter().enumerate().filter_map(|(i, entry)| {
+            let c = factors.damping[i][0];
+            (entry.row == entry.column && entry.m == 0.0 && c > 0.0).then(|| entry.k / c)
+        });
+        massive.chain(massless).fold(0.0, f64::max)
     }
 
     /// Factors D(s) at the speeds set.

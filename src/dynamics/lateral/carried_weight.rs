@@ -8,8 +8,8 @@ impl Builder<'_> {
     /// M_c g/2 + M_t g; rows y_w of its wheelsets, −(M_c g/2 + M_t g)/2 each.
     pub(super) fn add_carried_weight(&self, system: &mut LinearSystem) {
         let carbody = self.vehicle.carbody.mass * GRAVITY / 2.0;
-        let truck = carbody + self.vehicle.truck.mass * GRAVITY;
         for j in 0..2 {
+            let truck = carbody + self.ends[j].truck.mass * GRAVITY;
             let phi_t = self.truck_roll(j);
             system.add_stiffness(&self.secondary_lateral_row(j), &phi_t, carbody);
             system.add_stiffness(&self.q.y_t(j), &phi_t, truck);

@@ -1,6 +1,10 @@
 //! Numbering of the coordinates and inputs of the lateral model.
 
-use crate::{case::TruckRoll, dynamics::Row, vehicle::Vehicle};
+use crate::{
+    case::TruckRoll,
+    dynamics::{Row, element::Name},
+    vehicle::Vehicle,
+};
 
 /// A degree of freedom; wheelsets and trucks count from 0 at the front.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,6 +25,8 @@ pub enum Coordinate {
     CarbodyYaw,
     /// φ_c.
     CarbodyRoll,
+    /// Elongation of the damper in an element with a spring in series.
+    Inner(Name),
 }
 
 /// The body that a coordinate moves.
@@ -32,6 +38,8 @@ pub enum Body {
     Truck(usize),
     /// The carbody.
     Carbody,
+    /// None: a point within an element.
+    Element,
 }
 
 impl Coordinate {
@@ -41,135 +49,211 @@ impl Coordinate {
             Self::WheelsetLateral(i) | Self::WheelsetYaw(i) => Body::Wheelset(i),
             Self::TruckLateral(j) | Self::TruckYaw(j) | Self::TruckRoll(j) => Body::Truck(j),
             Self::CarbodyLateral | Self::CarbodyYaw | Self::CarbodyRoll => Body::Carbody,
-        }
-    }
-}
-
-/// Numbering of [q, u]: wheelsets, trucks, carbody; then alignment and roll at the wheelsets.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Coordinates {
-    truck_roll: TruckRoll,
-}
-
-// Methods of one shape, although the first coordinates stand in the same place in every form.
-#[allow(clippy::unused_self)]
-impl Coordinates {
-    pub(super) fn new(truck_roll: TruckRoll) -> Self {
-        Self { truck_roll }
-    }
-
-    fn carbody(self) -> usize {
-        match self.truck_roll {
-            TruckRoll::Prescribed => 12,
-            TruckRoll::Dynamic => 14,
+            Self::Inner(_) => Body::Element,
         }
     }
 
-    /// Number of degrees of freedom.
-    pub fn len(self) -> usize {
-        self.carbody() + 3
+    /// Whether it is a lateral displacement of a body.
+    pub(in crate::dynamics) fn is_lateral(self) -> bool {
+        matches!(
+            self,
+            Self::WheelsetLateral(_) | Self::TruckLateral(_) | Self::CarbodyLateral
+        )
     }
 
-    /// Never: there are always degrees of freedom.
-    pub fn is_empty(self) -> bool {
-        false
-    }
-
-    /// What the coordinate at `index` is.
-    pub fn coordinate(self, index: usize) -> Coordinate {
-        match index {
-            0..4 => Coordinate::WheelsetLateral(index),
-            4..8 => Coordinate::WheelsetYaw(index - 4),
-            8..10 => Coordinate::TruckLateral(index - 8),
-            10..12 => Coordinate::TruckYaw(index - 10),
-            _ => match index - self.carbody().min(index) {
-                _ if index < self.carbody() => Coordinate::TruckRoll(index - 12),
-                0 => Coordinate::CarbodyLateral,
-                1 => Coordinate::CarbodyYaw,
-                _ => Coordinate::CarbodyRoll,
-            },
-        }
-    }
-
-    /// Coordinates of the leading truck and its wheelsets with those of the trailing one.
-    pub(super) fn trucks(self) -> Vec<[usize; 2]> {
-        let counterpart = |index: usize| match self.coordinate(index) {
-            Coordinate::WheelsetLateral(0 | 1) | Coordinate::WheelsetYaw(0 | 1) => Some(index + 2),
-            Coordinate::TruckLateral(0) | Coordinate::TruckYaw(0) | Coordinate::TruckRoll(0) => {
-                Some(index + 1)
-            }
+    /// The same coordinate of the trailing end, for one of the leading end.
+    fn counterpart(self) -> Option<Self> {
+        match self {
+            Self::WheelsetLateral(i @ (0 | 1)) => Some(Self::WheelsetLateral(i + 2)),
+            Self::WheelsetYaw(i @ (0 | 1)) => Some(Self::WheelsetYaw(i + 2)),
+            Self::TruckLateral(0) => Some(Self::TruckLateral(1)),
+            Self::TruckYaw(0) => Some(Self::TruckYaw(1)),
+            Self::TruckRoll(0) => Some(Self::TruckRoll(1)),
             _ => None,
+        }
+    }
+
+    /// Its mass or inertia in a vehicle, kg or kg m²; none of an inner point.
+    fn mass(self, vehicle: &Vehicle) -> f64 {
+        let (end, carbody) = (|j| vehicle.end(j), &vehicle.carbody);
+        match self {
+            Self::WheelsetLateral(i) => end(i / 2).wheelset.mass,
+            Self::WheelsetYaw(i) => end(i / 2).wheelset.yaw_inertia,
+            Self::TruckLateral(j) => end(j).truck.mass,
+            Self::TruckYaw(j) => end(j).truck.yaw_inertia,
+            Self::TruckRoll(j) => end(j).truck.roll_inertia,
+            Self::CarbodyLateral => carbody.mass,
+            Self::CarbodyYaw => carbody.yaw_inertia,
+            Self::CarbodyRoll => carbody.roll_inertia,
+            Self::Inner(_) => 0.0,
+        }
+    }
+}
+
+/// Numbering of [q, u]: wheelsets, trucks, carbody, inner points of elements; then alignment and roll at the
+/// wheelsets.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Coordinates {
+    list: Vec<Coordinate>,
+}
+
+impl Coordinates {
+    /// Of a model with some form of truck roll, and inner points of elements.
+    pub(super) fn new(truck_roll: TruckRoll, inner: &[Name]) -> Self {
+        let mut list = Vec::with_capacity(17 + inner.len());
+        list.extend((0..4).map(Coordinate::WheelsetLateral));
+        list.extend((0..4).map(Coordinate::WheelsetYaw));
+        list.extend((0..2).map(Coordinate::TruckLateral));
+        list.extend((0..2).map(Coordinate::TruckYaw));
+        if truck_roll == TruckRoll::Dynamic {
+            list.extend((0..2).map(Coordinate::TruckRoll));
+        }
+        list.push(Coordinate::CarbodyLateral);
+        list.push(Coordinate::CarbodyYaw);
+        list.push(Coordinate::CarbodyRoll);
+        list.extend(inner.iter().copied().map(Coordinate::Inner));
+        Self { list }
+    }
+
+    /// Number of coordinates.
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// Number of coordinates with mass, which come first.
+    pub(in crate::dynamics) fn massive(&self) -> usize {
+        let massive = self.list.iter().take_while(|c| c.body() != Body::Element);
+        massive.count()
+    }
+
+    /// The coordinate at `index`.
+    pub fn coordinate(&self, index: usize) -> Coordinate {
+        self.list[index]
+    }
+
+    /// Index of a coordinate; `None` if the model does not have it.
+    pub fn find(&self, coordinate: Coordinate) -> Option<usize> {
+        self.list.iter().position(|other| *other == coordinate)
+    }
+
+    /// Index of a coordinate that every model has.
+    ///
+    /// # Panics
+    ///
+    /// If this one does not have it.
+    pub fn index(&self, coordinate: Coordinate) -> usize {
+        self.find(coordinate).expect("a coordinate of the model")
+    }
+
+    /// Coordinates of the leading end with those of the trailing one.
+    pub(super) fn ends(&self) -> Vec<[usize; 2]> {
+        let pair = |(index, coordinate): (usize, &Coordinate)| {
+            Some([index, self.find(coordinate.counterpart()?)?])
         };
-        (0..self.len())
-            .filter_map(|index| Some([index, counterpart(index)?]))
-            .collect()
+        self.list.iter().enumerate().filter_map(pair).collect()
     }
 
     /// Diagonal of M, kg and kg m².
-    pub(in crate::dynamics) fn masses(self, vehicle: &Vehicle) -> Vec<f64> {
-        let (w, t, c) = (&vehicle.wheelset, &vehicle.truck, &vehicle.carbody);
-        (0..self.len())
-            .map(|index| match self.coordinate(index) {
-                Coordinate::WheelsetLateral(_) => w.mass,
-                Coordinate::WheelsetYaw(_) => w.yaw_inertia,
-                Coordinate::TruckLateral(_) => t.mass,
-                Coordinate::TruckYaw(_) => t.yaw_inertia,
-                Coordinate::TruckRoll(_) => t.roll_inertia,
-                Coordinate::CarbodyLateral => c.mass,
-                Coordinate::CarbodyYaw => c.yaw_inertia,
-                Coordinate::CarbodyRoll => c.roll_inertia,
-            })
-            .collect()
+    pub(in crate::dynamics) fn masses(&self, vehicle: &Vehicle) -> Vec<f64> {
+        self.list.iter().map(|c| c.mass(vehicle)).collect()
     }
 
-    pub(in crate::dynamics) fn y_w(self, i: usize) -> Row {
-        Row::unit(i)
+    fn unit(&self, coordinate: Coordinate) -> Row {
+        Row::unit(self.index(coordinate))
     }
 
-    pub(in crate::dynamics) fn psi_w(self, i: usize) -> Row {
-        Row::unit(4 + i)
+    pub(in crate::dynamics) fn y_w(&self, i: usize) -> Row {
+        self.unit(Coordinate::WheelsetLateral(i))
     }
 
-    pub(in crate::dynamics) fn y_t(self, j: usize) -> Row {
-        Row::unit(8 + j)
+    pub(in crate::dynamics) fn psi_w(&self, i: usize) -> Row {
+        self.unit(Coordinate::WheelsetYaw(i))
     }
 
-    pub(in crate::dynamics) fn psi_t(self, j: usize) -> Row {
-        Row::unit(10 + j)
+    pub(in crate::dynamics) fn y_t(&self, j: usize) -> Row {
+        self.unit(Coordinate::TruckLateral(j))
+    }
+
+    pub(in crate::dynamics) fn psi_t(&self, j: usize) -> Row {
+        self.unit(Coordinate::TruckYaw(j))
     }
 
     /// φ_t where truck roll is a degree of freedom.
-    pub(super) fn phi_t(self, j: usize) -> Option<Row> {
-        (self.truck_roll == TruckRoll::Dynamic).then(|| Row::unit(12 + j))
+    pub(in crate::dynamics) fn phi_t(&self, j: usize) -> Option<Row> {
+        self.find(Coordinate::TruckRoll(j)).map(Row::unit)
     }
 
-    pub(in crate::dynamics) fn y_c(self) -> Row {
-        Row::unit(self.carbody())
+    pub(in crate::dynamics) fn y_c(&self) -> Row {
+        self.unit(Coordinate::CarbodyLateral)
     }
 
-    pub(super) fn psi_c(self) -> Row {
-        Row::unit(self.carbody() + 1)
+    pub(in crate::dynamics) fn psi_c(&self) -> Row {
+        self.unit(Coordinate::CarbodyYaw)
     }
 
-    pub(super) fn phi_c(self) -> Row {
-        Row::unit(self.carbody() + 2)
+    pub(in crate::dynamics) fn phi_c(&self) -> Row {
+        self.unit(Coordinate::CarbodyRoll)
     }
 
     /// Index of y_a at wheelset `i` in [q, u].
-    pub(super) fn alignment_input(self, i: usize) -> usize {
+    pub(super) fn alignment_input(&self, i: usize) -> usize {
         self.len() + i
     }
 
     /// Index of φ_x at wheelset `i` in [q, u].
-    pub(super) fn roll_input(self, i: usize) -> usize {
+    pub(super) fn roll_input(&self, i: usize) -> usize {
         self.len() + 4 + i
     }
 
-    pub(super) fn y_a(self, i: usize) -> Row {
+    pub(super) fn y_a(&self, i: usize) -> Row {
         Row::unit(self.alignment_input(i))
     }
 
-    pub(super) fn phi_x(self, i: usize) -> Row {
+    pub(super) fn phi_x(&self, i: usize) -> Row {
         Row::unit(self.roll_input(i))
+    }
+
+    /// Change per unit of curvature, 1/m, of a form in coordinates relative to the local centre line and radial
+    /// line, against the same in straight axes: ψ counts less σ/R and y less σ²/(2R), σ being the station of
+    /// the body ahead of the carbody's middle, m. Roll is not replaced, so that a prescribed roll, which follows
+    /// from coordinates relative to the track, must not be part of the form.
+    pub(in crate::dynamics) fn offset_in_curve(&self, row: &Row, vehicle: &Vehicle) -> f64 {
+        let l_s = vehicle.carbody.half_truck_spacing;
+        // Station of the end that a body belongs to, and of the body within it.
+        let station = |&(index, _): &(usize, f64)| match self.list[index].body() {
+            Body::Wheelset(i) => {
+                let b = vehicle.end(i / 2).truck.half_wheelbase;
+                let sign = if i.is_multiple_of(2) { b } else { -b };
+                (if i < 2 { l_s } else { -l_s }, sign)
+            }
+            Body::Truck(0) => (l_s, 0.0),
+            Body::Truck(_) => (-l_s, 0.0),
+            Body::Carbody | Body::Element => (0.0, 0.0),
+        };
+        // Elements do not feel a displacement of the whole vehicle: within one end its own station is left out,
+        // which saves rounding.
+        let mut ends = row.terms().iter().map(|term| station(term).0.to_bits());
+        let first = ends.next();
+        let within = ends.all(|end| Some(end) == first);
+        let terms = row.terms().iter().map(|term| {
+            let (end, own) = station(term);
+            let sigma = if within { own } else { end + own };
+            let (coordinate, c) = (self.list[term.0], term.1);
+            match coordinate {
+                Coordinate::WheelsetLateral(_)
+                | Coordinate::TruckLateral(_)
+                | Coordinate::CarbodyLateral => -c * sigma * sigma / 2.0,
+                Coordinate::WheelsetYaw(_) | Coordinate::TruckYaw(_) | Coordinate::CarbodyYaw => {
+                    -c * sigma
+                }
+                Coordinate::TruckRoll(_) | Coordinate::CarbodyRoll | Coordinate::Inner(_) => 0.0,
+            }
+        });
+        terms.sum()
     }
 }

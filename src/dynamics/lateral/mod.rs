@@ -11,18 +11,23 @@
 
 mod carried_weight;
 mod coordinates;
-mod suspension;
+mod rows;
 mod wheelset;
 
 pub use coordinates::{Body, Coordinate, Coordinates};
 
 use std::sync::OnceLock;
 
-use super::{ForcedModel, LinearSystem, Output, Row, forced::Excitation, parts};
+use super::{
+    ForcedModel, LinearSystem, Output,
+    element::{self, Element, Name},
+    forced::Excitation,
+    parts, suspension,
+};
 use crate::{
-    case::{Case, Crosslevel, Model, TruckRoll},
+    case::{Case, Crosslevel, Model},
     track::Irregularity,
-    vehicle::Vehicle,
+    vehicle::{End, Vehicle},
     wheel_rail::Contact,
 };
 
@@ -53,101 +58,126 @@ pub mod output {
     pub const LONGITUDINAL_STROKE: Range<usize> = 14..18;
 }
 
-/// The suspension alone, with truck roll prescribed by the rails: what the curving model shares
-/// with this one.
+/// The suspension alone, with truck roll prescribed by the rails: the curving model shares it with this one.
 pub(super) fn suspension_on_rails(
     vehicle: &Vehicle,
     contact: Contact,
-) -> (Coordinates, LinearSystem) {
-    let builder = Builder::on_rails(vehicle, contact);
-    let mut system = LinearSystem::new(builder.q.masses(vehicle), 8);
-    builder.add_suspension(&mut system);
-    (builder.q, system)
+) -> (Coordinates, Vec<Element>) {
+    let builder = Builder::new(vehicle, contact, Model::default());
+    let elements = suspension::lateral(&builder);
+    (builder.q, elements)
 }
 
-/// What the building of an element needs to see.
+/// A vehicle with the numbering of its lateral model.
 pub(super) struct Builder<'a> {
-    vehicle: &'a Vehicle,
-    contact: Contact,
+    pub(super) vehicle: &'a Vehicle,
+    /// Leading and trailing end.
+    pub(super) ends: [End; 2],
+    /// Contact of the wheels of either end.
+    contact: [Contact; 2],
     model: Model,
-    q: Coordinates,
+    pub(super) q: Coordinates,
 }
 
 impl LateralModel {
     /// Builds the model of a case.
     pub fn new(case: &Case) -> Self {
-        let builder = Builder {
-            vehicle: &case.vehicle,
-            contact: case.wheel_rail.contact(),
-            model: case.model,
-            q: Coordinates::new(case.model.truck_roll),
-        };
-        let mut system = LinearSystem::new(builder.q.masses(&case.vehicle), 8);
-        builder.add_suspension(&mut system);
+        let vehicle = &case.vehicle;
+        let mut builder = Builder::new(vehicle, case.wheel_rail.contact(), case.model);
+        let mut elements = suspension::lateral(&builder);
+        let inner = element::inner_coordinates(&elements);
+        if !inner.is_empty() {
+            // Inputs are numbered behind the inner coordinates.
+            builder.q = Coordinates::new(case.model.truck_roll, &inner);
+            elements = suspension::lateral(&builder);
+        }
+        let mut system = LinearSystem::new(builder.q.masses(vehicle), 8);
+        element::assemble(&elements, &mut system, builder.q.massive());
         builder.add_wheelsets(&mut system);
         if case.model.crosslevel == Crosslevel::Contact {
             builder.add_carried_weight(&mut system);
         }
-        let q = builder.q;
-        system.alike = q.trucks();
-        let roll = 1.0 / (2.0 * case.vehicle.wheelset.half_contact_distance);
-        let excitation = |irregularity, first: fn(Coordinates, usize) -> usize, scale| Excitation {
-            irregularity,
-            inputs: std::array::from_fn(|i| first(q, i)),
-            scale,
-        };
+        let q = &builder.q;
+        system.find_alike(q.ends());
+        let roll = 1.0 / (2.0 * vehicle.wheelset.half_contact_distance);
+        let excitation =
+            |irregularity, first: fn(&Coordinates, usize) -> usize, scale| Excitation {
+                irregularity,
+                inputs: std::array::from_fn(|i| first(q, i)),
+                scale,
+            };
         let forced = ForcedModel {
             excitations: vec![
                 excitation(Irregularity::Alignment, Coordinates::alignment_input, 1.0),
                 excitation(Irregularity::Crosslevel, Coordinates::roll_input, roll),
             ],
-            outputs: builder.outputs(),
-            lags: std::array::from_fn(|i| case.vehicle.wheelset_lag(i)),
+            outputs: builder.outputs(&elements),
+            lags: std::array::from_fn(|i| vehicle.wheelset_lag(i)),
             elimination: OnceLock::new(),
             system,
         };
         Self {
-            coordinates: q,
+            coordinates: builder.q,
             forced,
         }
     }
 
-    /// The leading truck under a carbody at rest, at `speed`, m/s: its coordinates' numbers in the model,
-    /// and its equations of motion, whose damping is that at `speed`. The trailing truck has the same.
-    pub fn one_truck(&self, speed: f64) -> (Vec<usize>, LinearSystem) {
-        parts::one_alike(&self.forced.system, speed)
+    /// Each truck under a carbody at rest, at `speed`, m/s: its coordinates' numbers in the model, and its
+    /// equations of motion, whose damping is that at `speed`. One truck where the ends are alike.
+    pub fn trucks(&self, speed: f64) -> Vec<(Vec<usize>, LinearSystem)> {
+        let ends = self.coordinates.ends();
+        let count = if self.forced.system.alike.is_empty() {
+            2
+        } else {
+            1
+        };
+        let truck = |j: usize| {
+            let part: Vec<usize> = ends.iter().map(|pair| pair[j]).collect();
+            let held = parts::held(&self.forced.system, speed, &part);
+            (part, held)
+        };
+        (0..count).map(truck).collect()
     }
 }
 
 impl<'a> Builder<'a> {
-    /// In the report's form, truck roll prescribed.
-    pub(super) fn on_rails(vehicle: &'a Vehicle, contact: Contact) -> Self {
+    fn new(vehicle: &'a Vehicle, contact: Contact, model: Model) -> Self {
+        // The coefficients belong to the mean axle load.
+        let contact = match &vehicle.trailing {
+            None => [contact; 2],
+            Some(_) => {
+                [0, 1].map(|j| contact.at_load(vehicle.axle_load_of(j) / vehicle.axle_load()))
+            }
+        };
         Self {
             vehicle,
+            ends: [vehicle.end(0), vehicle.end(1)],
             contact,
-            model: Model::default(),
-            q: Coordinates::new(TruckRoll::Prescribed),
+            model,
+            q: Coordinates::new(model.truck_roll, &[]),
         }
     }
 }
 
 impl Builder<'_> {
-    fn outputs(&self) -> Vec<Output> {
+    fn outputs(&self, elements: &[Element]) -> Vec<Output> {
         let q = &self.q;
         let passenger = &self.vehicle.passenger;
         let (x, h) = (
             passenger.longitudinal_offset,
             passenger.height_above_carbody_cg,
         );
-        let d_p = self.vehicle.truck.half_primary_spacing;
         let acceleration =
             [0.0, x, -x].map(|x| Output::acceleration(q.y_c() + x * q.psi_c() - h * q.phi_c()));
         let roll = Output::acceleration(q.phi_c());
-        let secondary = (0..2).map(|j| Output::displacement(self.secondary_lateral_stretch(j)));
-        let primary = (0..4).map(|i| Output::displacement(self.primary_lateral_stretch(i)));
+        let stretch = |name| element::named(elements, name).stretch.clone();
+        let secondary = (0..2).map(|j| Output::displacement(stretch(Name::SecondaryLateral(j))));
+        let primary = (0..4).map(|i| Output::displacement(stretch(Name::PrimaryLateral(i))));
         let excursion = (0..4).map(|i| Output::displacement(self.excursion(i)));
-        let longitudinal =
-            (0..4).map(|i| Output::displacement(d_p * (q.psi_t(i / 2) - q.psi_w(i))));
+        let longitudinal = (0..4).map(|i| {
+            let d_p = self.ends[i / 2].truck.half_primary_spacing;
+            Output::displacement(d_p * stretch(Name::PrimaryYaw(i)))
+        });
         acceleration
             .into_iter()
             .chain([roll])
@@ -156,28 +186,5 @@ impl Builder<'_> {
             .chain(excursion)
             .chain(longitudinal)
             .collect()
-    }
-
-    /// e, excursion of wheelset `i` from the track centre line at its contact points.
-    fn excursion(&self, i: usize) -> Row {
-        let q = &self.q;
-        let e = q.y_w(i) - q.y_a(i);
-        match self.model.crosslevel {
-            Crosslevel::Roll => e,
-            Crosslevel::Contact => e + self.vehicle.wheelset.rolling_radius * q.phi_x(i),
-        }
-    }
-
-    /// φ_w = φ_x + (a11/a) e, roll of wheelset `i` prescribed by the rails.
-    fn wheelset_roll(&self, i: usize) -> Row {
-        let a = self.vehicle.wheelset.half_contact_distance;
-        self.q.phi_x(i) + self.contact.a11 / a * self.excursion(i)
-    }
-
-    /// φ_t of truck `j`: its coordinate, or the mean of its wheelsets' roll (3.4.4.1).
-    fn truck_roll(&self, j: usize) -> Row {
-        self.q
-            .phi_t(j)
-            .unwrap_or_else(|| 0.5 * (self.wheelset_roll(2 * j) + self.wheelset_roll(2 * j + 1)))
     }
 }

@@ -22,10 +22,11 @@ use crate::{
 impl Builder<'_> {
     pub(super) fn add_wheelsets(&self, system: &mut LinearSystem) {
         let w = &self.vehicle.wheelset;
-        let c = &self.contact;
         let (a, r0) = (w.half_contact_distance, w.rolling_radius);
-        let axle_load = self.vehicle.axle_load();
         for i in 0..4 {
+            let c = &self.contact[i / 2];
+            let axle_load = self.vehicle.axle_load_of(i / 2);
+            let w = &self.ends[i / 2].wheelset;
             let (y, psi) = (self.q.y_w(i), self.q.psi_w(i));
             let e = self.excursion(i);
             let phi_w = self.wheelset_roll(i);

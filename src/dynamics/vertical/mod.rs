@@ -12,17 +12,22 @@ mod carbody;
 
 use std::sync::OnceLock;
 
-use super::{ForcedModel, LinearSystem, Output, Row, forced::Excitation};
+use super::{
+    ForcedModel, LinearSystem, Output, Row,
+    element::{self, Element, Name},
+    forced::Excitation,
+    suspension,
+};
 use crate::{
     case::Case,
     track::Irregularity,
-    vehicle::{AirSpring, Vehicle},
+    vehicle::{End, Vehicle},
 };
 
 /// Index of the first truck coordinate.
 const TRUCKS: usize = 6;
-/// Index of the first inner point of the air springs.
-const AIR_SPRINGS: usize = 12;
+/// Index of the first inner coordinate.
+const INNER: usize = 12;
 
 /// The vertical model of a case; its equations do not depend on the speed.
 #[derive(Debug, Clone)]
@@ -68,8 +73,8 @@ pub enum Coordinate {
     TruckRoll(usize),
     /// θ_t.
     TruckPitch(usize),
-    /// p of air spring 0–3: leading left, leading right, trailing left, trailing right.
-    AirSpring(usize),
+    /// Elongation of the damper in an element with a spring in series, by number.
+    Inner(usize),
 }
 
 impl Coordinate {
@@ -82,7 +87,7 @@ impl Coordinate {
             3 => Self::CarbodyBending,
             4 => Self::CarbodyTorsion1,
             5 => Self::CarbodyTorsion2,
-            TRUCKS..AIR_SPRINGS => {
+            TRUCKS..INNER => {
                 let truck = (index - TRUCKS) / 3;
                 match (index - TRUCKS) % 3 {
                     0 => Self::TruckHeave(truck),
@@ -90,28 +95,38 @@ impl Coordinate {
                     _ => Self::TruckPitch(truck),
                 }
             }
-            _ => Self::AirSpring(index - AIR_SPRINGS),
+            _ => Self::Inner(index - INNER),
         }
     }
 }
 
-struct Builder<'a> {
+/// A vehicle with the numbering of its vertical model.
+pub(super) struct Builder<'a> {
     vehicle: &'a Vehicle,
-    air_spring: Option<AirSpring>,
+    /// Leading and trailing end.
+    pub(super) ends: [End; 2],
+    /// Elements with an inner coordinate, in the order of these.
+    inner: Vec<Name>,
 }
 
 impl VerticalModel {
     /// Builds the model of a case.
     pub fn new(case: &Case) -> Self {
         let vehicle = &case.vehicle;
-        let builder = Builder {
+        let mut builder = Builder {
             vehicle,
-            air_spring: vehicle.suspension.secondary.air_spring,
+            ends: [vehicle.end(0), vehicle.end(1)],
+            inner: Vec::new(),
         };
+        let mut elements = suspension::vertical(&builder);
+        builder.inner = element::inner_coordinates(&elements);
+        if !builder.inner.is_empty() {
+            // Inputs are numbered behind the inner coordinates.
+            elements = suspension::vertical(&builder);
+        }
         let mut system = LinearSystem::new(builder.masses(), 8);
         builder.add_flexible_modes(&mut system);
-        builder.add_secondary(&mut system);
-        builder.add_primary(&mut system);
+        element::assemble(&elements, &mut system, INNER);
         let order = builder.order();
         system.mirrored = builder.mirrored();
         let excitation = |irregularity, first: usize, scale| Excitation {
@@ -125,7 +140,7 @@ impl VerticalModel {
                 excitation(Irregularity::Vertical, 0, 1.0),
                 excitation(Irregularity::Crosslevel, 4, roll),
             ],
-            outputs: builder.outputs(),
+            outputs: builder.outputs(&elements),
             lags: std::array::from_fn(|i| vehicle.wheelset_lag(i)),
             elimination: OnceLock::new(),
             system,
@@ -136,23 +151,26 @@ impl VerticalModel {
 
 impl Builder<'_> {
     fn order(&self) -> usize {
-        AIR_SPRINGS + if self.air_spring.is_some() { 4 } else { 0 }
+        INNER + self.inner.len()
     }
 
-    /// Air springs left and right, then all of the trucks in front and behind.
+    /// Elements on the left with those on the right, then all of the leading truck with those of the trailing one.
     fn mirrored(&self) -> Vec<[usize; 2]> {
-        let trucks = (0..3).map(|k| [TRUCKS + k, TRUCKS + 3 + k]);
-        let springs = self
-            .air_spring
-            .map_or(&[][..], |_| &[[0, 1], [2, 3], [0, 2], [1, 3]]);
-        let springs = springs
-            .iter()
-            .map(|pair| pair.map(|corner| AIR_SPRINGS + corner));
-        springs.chain(trucks).collect()
+        let pair = |name: Name, other: Name| {
+            let place = |name| self.inner.iter().position(|inner| *inner == name);
+            Some([INNER + place(name)?, INNER + place(other)?])
+        };
+        let mut pairs = Vec::new();
+        let secondary = Name::SecondaryVertical;
+        pairs.extend((0..2).filter_map(|j| pair(secondary(j, 0), secondary(j, 1))));
+        pairs.extend((0..2).filter_map(|side| pair(secondary(0, side), secondary(1, side))));
+        pairs.extend((0..3).map(|k| [TRUCKS + k, TRUCKS + 3 + k]));
+        pairs
     }
 
     fn masses(&self) -> Vec<f64> {
-        let (c, t) = (&self.vehicle.carbody, &self.vehicle.truck);
+        let c = &self.vehicle.carbody;
+        let truck = |j: usize| &self.ends[j].truck;
         (0..self.order())
             .map(|index| match Coordinate::at(index) {
                 Coordinate::CarbodyHeave => c.mass,
@@ -161,10 +179,10 @@ impl Builder<'_> {
                 Coordinate::CarbodyBending => c.mass * c.bending.modal_mass_ratio,
                 Coordinate::CarbodyTorsion1 => c.roll_inertia * c.torsion_1.modal_mass_ratio,
                 Coordinate::CarbodyTorsion2 => c.roll_inertia * c.torsion_2.modal_mass_ratio,
-                Coordinate::TruckHeave(_) => t.mass,
-                Coordinate::TruckRoll(_) => t.roll_inertia,
-                Coordinate::TruckPitch(_) => t.pitch_inertia,
-                Coordinate::AirSpring(_) => 0.0,
+                Coordinate::TruckHeave(j) => truck(j).mass,
+                Coordinate::TruckRoll(j) => truck(j).roll_inertia,
+                Coordinate::TruckPitch(j) => truck(j).pitch_inertia,
+                Coordinate::Inner(_) => 0.0,
             })
             .collect()
     }
@@ -180,77 +198,37 @@ impl Builder<'_> {
         Row::unit(self.order() + i) + y * Row::unit(self.order() + 4 + i)
     }
 
-    fn primary_stretch(&self, i: usize, side: f64) -> Row {
-        let truck = &self.vehicle.truck;
+    /// Stretch of the primary spring of wheelset `i` on a side, +1 left and −1 right.
+    pub(super) fn primary_stretch(&self, i: usize, side: f64) -> Row {
+        let truck = &self.ends[i / 2].truck;
         let b = truck.half_wheelbase;
         let x = if i.is_multiple_of(2) { b } else { -b };
         let y = side * truck.half_primary_spacing;
         Self::truck_point(i / 2, x, y) - self.rail(i, y)
     }
 
-    /// Where the secondary spring of truck `j` on a side meets carbody and truck.
-    fn secondary_ends(&self, j: usize, side: f64) -> [Row; 2] {
+    /// Stretch of the secondary spring of truck `j` on a side, +1 left and −1 right.
+    pub(super) fn secondary_stretch(&self, j: usize, side: f64) -> Row {
         let l_s = self.vehicle.carbody.half_truck_spacing;
-        let y = side * self.vehicle.truck.half_secondary_spacing;
+        let y = side * self.ends[j].truck.half_secondary_spacing;
         let x = if j == 0 { l_s } else { -l_s };
-        [self.carbody_point(x, y), Self::truck_point(j, 0.0, y)]
+        self.carbody_point(x, y) - Self::truck_point(j, 0.0, y)
     }
 
-    fn add_primary(&self, system: &mut LinearSystem) {
-        let primary = &self.vehicle.suspension.primary;
-        for i in 0..4 {
-            for side in [1.0, -1.0] {
-                let stretch = self.primary_stretch(i, side);
-                system.add_element(
-                    &stretch,
-                    &stretch,
-                    primary.vertical_stiffness,
-                    primary.c_pz(),
-                );
-            }
-        }
-    }
-
-    fn add_secondary(&self, system: &mut LinearSystem) {
-        let secondary = &self.vehicle.suspension.secondary;
-        let corners = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)];
-        for (corner, (j, side)) in corners.into_iter().enumerate() {
-            let [carbody, truck] = self.secondary_ends(j, side);
-            let stretch = carbody.clone() - truck.clone();
-            if let Some(air) = self.air_spring {
-                let p = Row::unit(AIR_SPRINGS + corner);
-                let bellows = carbody - p.clone();
-                let reservoir = p - truck;
-                system.add_stiffness(&stretch, &stretch, air.direct_stiffness);
-                system.add_stiffness(&bellows, &bellows, air.series_stiffness);
-                system.add_element(
-                    &reservoir,
-                    &reservoir,
-                    air.reservoir_stiffness,
-                    air.orifice_damping,
-                );
-            } else {
-                let (k, c) = (secondary.vertical_stiffness, secondary.vertical_damping);
-                system.add_element(&stretch, &stretch, k, c);
-            }
-        }
-    }
-
-    fn outputs(&self) -> Vec<Output> {
+    fn outputs(&self, elements: &[Element]) -> Vec<Output> {
         let passenger = &self.vehicle.passenger;
-        let primary = &self.vehicle.suspension.primary;
         let (x, y) = (passenger.longitudinal_offset, passenger.lateral_offset);
         let acceleration = [(0.0, 0.0), (x, y), (-x, y)]
             .map(|(x, y)| Output::acceleration(self.carbody_point(x, y)));
         let roll = Output::acceleration(Row::unit(1));
-        let secondary = (0..2).map(|j| {
-            let [carbody, truck] = self.secondary_ends(j, 1.0);
-            Output::displacement(carbody - truck)
-        });
-        let stroke = (0..4).map(|i| Output::displacement(self.primary_stretch(i, 1.0)));
+        let left = |name| element::named(elements, name);
+        let secondary = (0..2)
+            .map(|j| Output::displacement(left(Name::SecondaryVertical(j, 0)).stretch.clone()));
+        let stroke =
+            (0..4).map(|i| Output::displacement(left(Name::PrimaryVertical(i, 0)).stretch.clone()));
         let load = (0..4).map(|i| {
-            let stretch = self.primary_stretch(i, 1.0);
-            Output::force(&stretch, primary.vertical_stiffness, primary.c_pz())
+            let Element { stretch, law, .. } = left(Name::PrimaryVertical(i, 0));
+            Output::force(stretch, law.stiffness, law.damping)
         });
         acceleration
             .into_iter()

@@ -67,7 +67,6 @@ fn walk(
     (share, of_distance): (f64, f64),
 ) -> Option<f64> {
     let angle = FRAC_PI_2 + zeta.asin();
-    let order = refiner.order();
     let (stiffness, factors, arch) = refiner.parts();
     let modes: Vec<(f64, f64)> = known.iter().map(|s| (size(*s).ln(), s.arg())).collect();
     let sizes = modes.iter().map(|(size, _)| *size);
@@ -116,7 +115,7 @@ fn walk(
             walk: &mut walk,
         });
     }
-    let degree = 2.0 * (order as f64 - known.len() as f64);
+    let degree = stiffness.degree() as f64 - 2.0 * known.len() as f64;
     let count = (degree * angle - walk.turned) / TAU;
     // A positive real eigenvalue counts half.
     let whole = (2.0 * count).round() / 2.0;

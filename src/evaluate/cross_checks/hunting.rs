@@ -91,13 +91,13 @@ pub(super) fn corrected(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Ev
         };
         Stability::of(&case).ok().and_then(|s| s.critical_speed())
     };
-    let mut baseline = case.vehicle;
+    let mut baseline = case.vehicle.clone();
     baseline.wheelset = prototype.wheelset;
     baseline.truck.mass = prototype.truck.mass;
     baseline.truck.yaw_inertia = prototype.truck.yaw_inertia;
     if baseline != case.vehicle
         && corrections::mass_correction_applies(&case.vehicle)
-        && let Some(speed) = speed_of(baseline)
+        && let Some(speed) = speed_of(baseline.clone())
     {
         list.push(CrossCheck {
             name: "critical speed, prototype's running gear corrected for mass".into(),
@@ -116,12 +116,12 @@ pub(super) fn corrected(list: &mut Vec<CrossCheck>, case: &Case, evaluation: &Ev
             speed_of(vehicle)
         };
         // The baseline is the prototype with this case's primary stiffnesses and conicity.
-        let mut prototype = prototype;
+        let mut prototype = prototype.clone();
         prototype.suspension.primary = case.vehicle.suspension.primary;
         if let (Some(at_reference), Some(used), Some(own)) = (
-            with_yaw(prototype, reference),
+            with_yaw(prototype.clone(), reference),
             with_yaw(prototype, yaw),
-            with_yaw(case.vehicle, reference),
+            with_yaw(case.vehicle.clone(), reference),
         ) {
             list.push(CrossCheck {
                 name: "critical speed, corrected for yaw stiffness".into(),

@@ -3,7 +3,10 @@
 use super::{Limit, status::CurveStatus};
 use crate::{
     case::Case,
-    dynamics::curving::{Breakaway, CurvingError, CurvingModel, Side, WheelForces},
+    dynamics::{
+        curving::{Breakaway, CurvingError, CurvingModel, Side, WheelForces},
+        element::Name,
+    },
     track::curvature_of_degree,
 };
 
@@ -82,13 +85,13 @@ impl CurvingState {
             truck_yaw: std::array::from_fn(|j| x(10 + j)),
             carbody: std::array::from_fn(|k| x(12 + k)),
             primary_lateral_stroke: std::array::from_fn(|i| {
-                model.primary_lateral_stroke(curvature, i)
+                model.stretch_at(Name::PrimaryLateral(i), curvature)
             }),
             primary_longitudinal_stroke: std::array::from_fn(|i| {
                 model.primary_longitudinal_stroke(curvature, i)
             }),
             secondary_lateral_stroke: std::array::from_fn(|j| {
-                model.secondary_lateral_stroke(curvature, j)
+                model.stretch_at(Name::SecondaryLateral(j), curvature)
             }),
             secondary_yaw_torque: torque,
             breakaway: segment.breakaway,

@@ -4,7 +4,10 @@ use nalgebra::DVector;
 
 use super::Constants;
 use crate::{
-    dynamics::curving::{CurvingModel, Place, Side},
+    dynamics::{
+        curving::{CurvingModel, Place, Side},
+        element::Name,
+    },
     evaluate::curving::Limit,
     track::{curvature_of_degree, curvature_per_degree},
 };
@@ -21,6 +24,8 @@ pub struct CurvingTangents<'a> {
 pub struct WheelChange {
     /// Of the lateral force.
     pub lateral: f64,
+    /// Of the vertical load.
+    pub vertical: f64,
     /// Of the creep force over μN.
     pub adhesion_used: f64,
 }
@@ -90,32 +95,36 @@ impl<'a> CurvingTangents<'a> {
 
     /// Derivatives by each constant of the curve at which a limit is met, degrees. `None` if the
     /// equations are singular.
-    pub fn limit(&self, limit: Limit, degree: f64) -> Option<Vec<f64>> {
+    /// `clearances` has those of the flange clearance, m.
+    pub fn limit(&self, limit: Limit, degree: f64, clearances: &[f64]) -> Option<Vec<f64>> {
         let curvature = curvature_of_degree(degree);
         let segment = self.model.segment_at(curvature);
         let x = segment.displacements(curvature);
         let coordinates = self.coordinates(curvature)?;
-        // |f|² stays what it is: f·(∂f + ∂κ f′) = 0.
-        let along = |change: [f64; 2], slope: [f64; 2], f: [f64; 2]| {
+        // |f| stays at its bound c: f·(∂f + ∂κ f′) = |f| ∂c.
+        let along = |change: [f64; 2], slope: [f64; 2], f: [f64; 2], bound: f64| {
             let dot = |a: [f64; 2]| f[0] * a[0] + f[1] * a[1];
-            -dot(change) / dot(slope) / curvature_per_degree(degree)
+            (f[0].hypot(f[1]) * bound - dot(change)) / dot(slope) / curvature_per_degree(degree)
         };
         let changes = coordinates.iter().enumerate().map(|(p, dx)| match limit {
             Limit::Flange(i) => {
-                let of = |x: &DVector<f64>| [x[i], 0.0];
-                along(of(dx), of(&segment.per_curvature), of(&x))
+                let of = |x: &DVector<f64>| [self.model.place(x, i).y, 0.0];
+                along(of(dx), of(&segment.per_curvature), of(&x), clearances[p])
             }
             Limit::Slip(i, side) => {
-                let creep =
-                    |model: &CurvingModel| model.creep(Place::of(&x, i), curvature, 1.0, side);
-                let slope = Place::of(&segment.per_curvature, i);
-                let slope = self.model.creep(slope, 1.0, 0.0, side);
-                let moved = self.model.creep(Place::of(dx, i), 0.0, 0.0, side);
+                let place = |x| self.model.place(x, i);
+                let at = place(&x);
+                let creep = |model: &CurvingModel| model.creep(i, at, curvature, 1.0, side);
+                let slope = place(&segment.per_curvature);
+                let slope = self.model.creep(i, slope, 1.0, 0.0, side);
+                let moved = self.model.creep(i, place(dx), 0.0, 0.0, side);
                 let own = self.explicit(p, creep);
+                let [bound] = self.explicit(p, |model| [model.adhesion_limit(i, side)]);
                 along(
                     [moved[0] + own[0], moved[1] + own[1]],
                     slope,
                     creep(self.model),
+                    bound,
                 )
             }
         });
@@ -134,17 +143,16 @@ impl<'a> CurvingTangents<'a> {
             let further = curvature_per_degree(degree) * degrees;
             let dx = dx + &segment.per_curvature * further;
             CurveChange {
-                wheelset_lateral: std::array::from_fn(|i| dx[i]),
+                wheelset_lateral: std::array::from_fn(|i| self.model.place(&dx, i).y),
                 secondary_lateral_stroke: std::array::from_fn(|j| {
-                    let stretch =
-                        |model: &CurvingModel| [model.secondary_lateral_stretch(&x, curvature, j)];
-                    let [own] = self.explicit(p, stretch);
-                    self.model.secondary_lateral_stretch(&dx, further, j) + own
+                    let name = Name::SecondaryLateral(j);
+                    let [own] = self.explicit(p, |model| [model.stretch(name, &x, curvature)]);
+                    self.model.stretch(name, &dx, further) + own
                 }),
                 wheels: std::array::from_fn(|i| {
                     Side::BOTH.map(|side| {
-                        let [place, moved] = [&x, &dx].map(|x| Place::of(x, i));
-                        self.wheel(p, side, curvature, place, (moved, further))
+                        let [place, moved] = [&x, &dx].map(|x| self.model.place(x, i));
+                        self.wheel(p, (i, side), curvature, place, (moved, further))
                     })
                 }),
             }
@@ -157,24 +165,28 @@ impl<'a> CurvingTangents<'a> {
     fn wheel(
         &self,
         p: usize,
-        side: Side,
+        (i, side): (usize, Side),
         curvature: f64,
         place: Place,
         (moved, further): (Place, f64),
     ) -> WheelChange {
         let forces = |model: &CurvingModel| {
-            let [f_x, f_y] = model.creep(place, curvature, 1.0, side);
-            [f_x, f_y, model.normal(place, 1.0, side)]
+            let [f_x, f_y] = model.creep(i, place, curvature, 1.0, side);
+            [f_x, f_y, model.normal(i, place, 1.0, side)]
         };
         let [f_x, f_y, _] = forces(self.model);
         let [own_x, own_y, own_normal] = self.explicit(p, forces);
-        let [d_x, d_y] = self.model.creep(moved, further, 0.0, side);
+        let [d_x, d_y] = self.model.creep(i, moved, further, 0.0, side);
         let (d_x, d_y) = (d_x + own_x, d_y + own_y);
-        let normal = self.model.normal(moved, 0.0, side) + own_normal;
+        let normal = self.model.normal(i, moved, 0.0, side) + own_normal;
         let along = (f_x * d_x + f_y * d_y) / f_x.hypot(f_y).max(f64::MIN_POSITIVE);
+        let limits =
+            |model: &CurvingModel| [model.vertical(i, side), model.adhesion_limit(i, side)];
+        let ([_, limit], [vertical, more]) = (limits(self.model), self.explicit(p, limits));
         WheelChange {
             lateral: d_y + normal,
-            adhesion_used: along / self.model.adhesion_limit(side),
+            vertical,
+            adhesion_used: (along - f_x.hypot(f_y) / limit * more) / limit,
         }
     }
 }

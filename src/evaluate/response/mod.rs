@@ -18,7 +18,7 @@ use crate::{
         ForcedModel, ForcedTangent,
         elimination::{
             ALL, Factors, LANES, Lanes, Reals, Stiffness,
-            lanes::{mul, mul_add},
+            lanes::{add, mul, mul_add},
         },
     },
     track::Track,
@@ -31,6 +31,8 @@ pub struct Response<'a> {
     model: &'a ForcedModel,
     track: &'a Track,
     speed: f64,
+    /// Whether wheelset 4 is as far behind 3 as 2 behind 1.
+    is_regular: bool,
     outputs: Range<usize>,
     arch: Arch,
     stiffness: &'a Stiffness,
@@ -57,6 +59,13 @@ struct Tangent {
     forces: Vec<Force>,
     couplings: Vec<Coupling>,
     outputs: Vec<Option<OutputTerms>>,
+    rails: Option<RailsTangent>,
+}
+
+/// Change of the input at each wheelset, relative: scale − iω lag, the lag in s.
+struct RailsTangent {
+    scale: f64,
+    lags: [f64; 4],
 }
 
 impl Tangent {
@@ -71,7 +80,7 @@ impl Tangent {
     }
 
     fn is_zero(&self) -> bool {
-        let none = self.forces.is_empty() && self.couplings.is_empty();
+        let none = self.forces.is_empty() && self.couplings.is_empty() && self.rails.is_none();
         none && self.outputs.iter().all(Option::is_none)
     }
 }
@@ -106,6 +115,7 @@ impl<'a> Response<'a> {
             factors,
             arch: Arch::new(),
             stiffness,
+            is_regular: is_regular(&model.lags),
             model,
             track,
             speed,
@@ -117,8 +127,11 @@ impl<'a> Response<'a> {
     #[must_use]
     pub fn with_tangents(mut self, tangents: &[ForcedTangent]) -> Self {
         let order = self.model.system.order();
-        for (excited, excitation) in self.excitations.iter_mut().zip(&self.model.excitations) {
+        let pairs = self.excitations.iter_mut().zip(&self.model.excitations);
+        for (number, (excited, excitation)) in pairs.enumerate() {
             let of = |tangent: &ForcedTangent| {
+                let (scale, lags) = (tangent.scales[number], tangent.lags);
+                let moves = scale != 0.0 || lags.iter().any(|lag| *lag != 0.0);
                 let (forces, couplings) =
                     terms::tangents(&tangent.system, order, excitation, self.speed);
                 let outputs = tangent.outputs[self.outputs.clone()].iter();
@@ -127,6 +140,10 @@ impl<'a> Response<'a> {
                     forces,
                     couplings,
                     outputs: outputs.map(|output| output.as_ref().map(terms)).collect(),
+                    rails: moves.then(|| RailsTangent {
+                        scale,
+                        lags: lags.map(|lag| lag / self.speed),
+                    }),
                 };
                 (!tangent.is_zero()).then_some(tangent)
             };
@@ -221,6 +238,7 @@ impl WithSimd for Batch<'_, '_> {
             model,
             track,
             speed,
+            is_regular,
             stiffness,
             factors,
             excitations,
@@ -232,7 +250,7 @@ impl WithSimd for Batch<'_, '_> {
             im: omega,
         };
         stiffness.factor(simd, &s, factors);
-        let phases = phases(simd, &omega, &model.lags, *speed);
+        let phases = phases(simd, &omega, &model.lags, *speed, *is_regular);
         self.densities.fill([0.0; LANES]);
         self.derivatives.fill([0.0; LANES]);
         for (excited, excitation) in excitations.iter_mut().zip(&model.excitations) {
@@ -270,14 +288,29 @@ impl WithSimd for Batch<'_, '_> {
                 dq.fill(Lanes::ZERO);
                 add_forces(simd, dq, &tangent.forces, &omega, &phases);
                 for coupling in &tangent.couplings {
-                    let transmitted = transmitted(simd, coupling.k, coupling.c, &omega);
+                    let mut transmitted = transmitted(simd, coupling.k, coupling.c, &omega);
+                    if coupling.m != 0.0 {
+                        let square = mul(simd, &omega, &omega);
+                        let inertia = mul(simd, &square, &[-coupling.m; LANES]);
+                        transmitted.re = add(simd, &transmitted.re, &inertia);
+                    }
                     let (row, from) = (coupling.row, &q[coupling.column]);
                     dq[row] = dq[row].plus_product(simd, &transmitted, from);
+                }
+                let mut rails = [Lanes::ZERO; 4];
+                if let Some(tangent) = &tangent.rails {
+                    for (rail, (phase, lag)) in
+                        rails.iter_mut().zip(phases.iter().zip(tangent.lags))
+                    {
+                        let change = transmitted(simd, tangent.scale, -lag, &omega);
+                        *rail = change.times(simd, phase);
+                    }
+                    add_forces(simd, dq, forces, &omega, &rails);
                 }
                 stiffness.solve(simd, factors, dq, *moved);
                 let dx = Moving {
                     coordinates: dq,
-                    rails: &[Lanes::ZERO; 4],
+                    rails: &rails,
                 };
                 for (k, sum) in derivatives.iter_mut().enumerate() {
                     let mut change = outputs[k].transfer(simd, &omega, dx);
@@ -323,17 +356,30 @@ fn add_forces<S: Simd>(
     }
 }
 
-/// e^{−iωτ} of the four wheelsets. Wheelset 4 is as far behind 3 as 2 behind 1.
+/// Share of the longest distance by which distances between wheelsets may differ and yet be the same.
+const SAME_DISTANCE: f64 = 1e-12;
+
+/// Whether wheelset 4 is as far behind 3 as 2 behind 1.
+fn is_regular(lags: &[f64; 4]) -> bool {
+    let [leading, trailing] = [lags[1] - lags[0], lags[3] - lags[2]];
+    (leading - trailing).abs() <= SAME_DISTANCE * lags[3].abs()
+}
+
+/// e^{−iωτ} of the four wheelsets; of regular ones two directions are enough.
 #[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
 #[inline(always)]
-fn phases<S: Simd>(simd: S, omega: &Reals, lags: &[f64; 4], speed: f64) -> [Lanes; 4] {
-    let angle = |lag: f64| mul(simd, omega, &[-lag / speed; LANES]);
-    let wheelbase = Lanes::on_unit_circle(simd, &angle(lags[1] - lags[0]));
-    let trucks = Lanes::on_unit_circle(simd, &angle(lags[2] - lags[0]));
-    [
-        Lanes::ONE,
-        wheelbase,
-        trucks,
-        trucks.times(simd, &wheelbase),
-    ]
+fn phases<S: Simd>(
+    simd: S,
+    omega: &Reals,
+    lags: &[f64; 4],
+    speed: f64,
+    is_regular: bool,
+) -> [Lanes; 4] {
+    let behind = |from: usize, to: usize| {
+        let angle = mul(simd, omega, &[-(lags[to] - lags[from]) / speed; LANES]);
+        Lanes::on_unit_circle(simd, &angle)
+    };
+    let (wheelbase, trucks) = (behind(0, 1), behind(0, 2));
+    let trailing = if is_regular { wheelbase } else { behind(2, 3) };
+    [Lanes::ONE, wheelbase, trucks, trucks.times(simd, &trailing)]
 }

@@ -43,13 +43,14 @@ pub(super) fn forces(system: &LinearSystem, excitation: &Excitation, speed: f64)
     forces
 }
 
-/// −(∂K + iω ∂C) on one coordinate, per unit of another.
+/// −(∂K + iω ∂C − ω² ∂M) on one coordinate, per unit of another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Coupling {
     pub row: usize,
     pub column: usize,
     pub k: f64,
     pub c: f64,
+    pub m: f64,
 }
 
 /// What a tangent of the system adds on the right side, at a speed, m/s: from the irregularity of an
@@ -69,6 +70,7 @@ pub(super) fn tangents(
                 column: entry.column,
                 k,
                 c,
+                m: -entry.m,
             });
         } else if let Some(wheelset) = excitation.inputs.iter().position(|&j| j == entry.column) {
             forces.push(Force {

@@ -171,7 +171,7 @@ fn front_bounds(nominal: &Situation, bounds: &Demands, mistakes: &mut Mistakes) 
 /// The frame stands on both stages: no primary spring gives it less than the secondary springs
 /// alone (3.5-9).
 fn frame_frequency(nominal: &Situation, design: &DesignSpace, mistakes: &mut Mistakes) {
-    let parameter = Parameter::PrimaryVerticalFrequency;
+    let parameter = Parameter::PRIMARY_VERTICAL_FREQUENCY;
     let highest = match design.freedom(parameter) {
         Some(Freedom::Between(bounds)) => bounds.upper,
         Some(Freedom::Fixed(value)) => *value,
@@ -207,8 +207,8 @@ pub(super) fn design_space_end(
 ) -> crate::case::Case {
     let mut case = nominal.case.clone();
     for parameter in [
-        Parameter::SecondaryVerticalStiffness,
-        Parameter::SecondaryVerticalFrequency,
+        Parameter::SECONDARY_VERTICAL_STIFFNESS,
+        Parameter::SECONDARY_VERTICAL_FREQUENCY,
     ] {
         match design.freedom(parameter) {
             Some(Freedom::Between(bounds)) => parameter.set(&mut case, end(bounds)),

@@ -91,7 +91,7 @@ fn lateral_stops(situation: &Situation, design: &DesignSpace, doubts: &mut Vec<D
     let case = &situation.case;
     let secondary = &case.vehicle.suspension.secondary;
     let mut chosen = design.parameters.iter().map(|(p, _)| p.constant());
-    let is_open = chosen.any(|constant| constant == Parameter::SecondaryLateralStiffness);
+    let is_open = chosen.any(|constant| constant == Parameter::SECONDARY_LATERAL_STIFFNESS);
     let weight = case.vehicle.carbody.mass * GRAVITY;
     let lean = weight * case.service.cant_deficiency().abs() / (4.0 * secondary.lateral_stiffness);
     if !is_open

@@ -6,7 +6,7 @@ use super::situation::shown;
 use crate::parameter::Parameter;
 use crate::spec::diagnostic::Diagnostic;
 use crate::spec::document::Document;
-use crate::spec::{Freedom, Spec, keys};
+use crate::spec::{Freedom, Spec};
 
 /// Widest ratio of bounds: four decades of stiffness reach from rubber to solid steel.
 const WIDEST: f64 = 1e4;
@@ -45,7 +45,7 @@ pub fn odd_freedoms(spec: &Spec, document: &Document, doubts: &mut Vec<Diagnosti
             );
         }
         let now = parameter.get(&spec.case);
-        let given = keys::of_parameter(*parameter).and_then(|key| document.get(key.path));
+        let given = document.get(parameter.key_of_constant().path);
         let inside = bounds.lower * (1.0 - ROUNDING)..=bounds.upper * (1.0 + ROUNDING);
         if given.is_some() && !inside.contains(&now) {
             doubts.push(
@@ -72,9 +72,7 @@ fn second_value(
     place: Range<usize>,
     doubts: &mut Vec<Diagnostic>,
 ) {
-    let Some(key) = keys::of_parameter(parameter) else {
-        return;
-    };
+    let key = parameter.key_of_constant();
     let given = parameter.get(&spec.case);
     if document.get(key.path).is_some() && (given / fixed - 1.0).abs() > SAME {
         let [fixed, given] = [fixed, given].map(|si| shown(si, parameter.quantity()));

@@ -3,12 +3,11 @@
 use toml::de::DeValue;
 
 use super::situation::Situation;
-use crate::case::Case;
 use crate::index::Index;
 use crate::parameter::Parameter;
 use crate::spec::diagnostic::{Diagnostic, word};
 use crate::spec::document::Document;
-use crate::spec::keys::{self, Key};
+use crate::spec::keys::{self, CaseKey};
 use crate::spec::{Freedom, Spec};
 
 type Doubts = Vec<Diagnostic>;
@@ -43,14 +42,13 @@ pub fn without_effect(
 /// Coefficients that the spec gives stay as they are, whatever the conicity; those that a condition
 /// gives beside its conicity are meant for it.
 fn profiles(spec: &Spec, document: &Document, situations: &[Situation], doubts: &mut Doubts) {
-    let given: Vec<&Key<Case>> = keys::COEFFICIENTS
-        .iter()
+    let given: Vec<&CaseKey> = keys::coefficients()
         .filter(|key| document.get(key.path).is_some())
         .collect();
     let mut doubt = |place, kept: &[&str]| {
         let what = match kept.len() {
             0 => return,
-            n if n == keys::COEFFICIENTS.len() => "creep and contact geometry",
+            n if n == keys::coefficients().count() => "creep and contact geometry",
             _ => "some coefficients",
         };
         doubts.push(
@@ -62,9 +60,9 @@ fn profiles(spec: &Spec, document: &Document, situations: &[Situation], doubts: 
             .help("leave them out to take each profile from Table 4.1.1".to_owned()),
         );
     };
-    let open = spec.design.freedom(Parameter::Conicity);
+    let open = spec.design.freedom(Parameter::CONICITY);
     if matches!(open, Some(Freedom::Between(_) | Freedom::Choices(_)))
-        && let Some(value) = document.get(Parameter::Conicity.path())
+        && let Some(value) = document.get(Parameter::CONICITY.path())
     {
         let kept: Vec<&str> = given.iter().map(|key| key.name()).collect();
         doubt(value.span(), &kept);
@@ -88,7 +86,7 @@ fn air_spring(spec: &Spec, document: &Document, doubts: &mut Doubts) {
     for (parameter, _) in &spec.design.parameters {
         let vertical = matches!(
             parameter.constant(),
-            Parameter::SecondaryVerticalStiffness | Parameter::SecondaryVerticalDamping
+            Parameter::SECONDARY_VERTICAL_STIFFNESS | Parameter::SECONDARY_VERTICAL_DAMPING
         );
         if vertical && let Some(value) = document.get(parameter.path()) {
             doubts.push(
@@ -177,12 +175,11 @@ fn replaced(spec: &Spec, situation: &Situation, doubts: &mut Doubts) {
     }
     for (parameter, _) in &spec.design.parameters {
         // Worn wheels are what conditions are for.
-        if *parameter == Parameter::Conicity {
+        if *parameter == Parameter::CONICITY {
             continue;
         }
-        if let Some(key) = keys::of_parameter(*parameter)
-            && let Some(place) = situation.place(&[key.path])
-        {
+        let key = parameter.key_of_constant();
+        if let Some(place) = situation.place(&[key.path]) {
             doubts.push(Diagnostic::at(
                 place,
                 format!("`{}` is chosen in [design]", parameter.name()),

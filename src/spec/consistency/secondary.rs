@@ -21,8 +21,8 @@ pub fn odd_secondary(situation: &Situation, design: &DesignSpace, doubts: &mut V
                     "vehicle.carbody.mass",
                 ],
                 [
-                    Parameter::SecondaryLateralStiffness,
-                    Parameter::SecondaryLateralDamping,
+                    Parameter::SECONDARY_LATERAL_STIFFNESS,
+                    Parameter::SECONDARY_LATERAL_DAMPING,
                 ],
             ),
             Direction::Vertical => (
@@ -32,8 +32,8 @@ pub fn odd_secondary(situation: &Situation, design: &DesignSpace, doubts: &mut V
                     "vehicle.carbody.mass",
                 ],
                 [
-                    Parameter::SecondaryVerticalStiffness,
-                    Parameter::SecondaryVerticalDamping,
+                    Parameter::SECONDARY_VERTICAL_STIFFNESS,
+                    Parameter::SECONDARY_VERTICAL_DAMPING,
                 ],
             ),
         };

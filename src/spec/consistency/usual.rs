@@ -66,7 +66,7 @@ pub fn unusual(situation: &Situation, doubts: &mut Vec<Diagnostic>) {
         let Some(key) = keys::case().find(|key| key.path == path) else {
             continue;
         };
-        if let Some(si) = (key.get)(&situation.case)
+        if let Some(si) = key.get(&situation.case)
             && !(least..=most).contains(&si.abs())
             && let Some(place) = situation.place(&[path])
         {

@@ -1,48 +1,44 @@
-//! Everything that a spec may contain, as tables of keys.
+//! Everything that a spec may contain, as tables of keys. Those of numbers stand with the [parameters](crate::parameter).
 
 mod entries;
-mod key;
 mod options;
-mod suspension;
 mod tables;
-mod vehicle;
-mod wheel_rail;
 
-pub use crate::units::Range;
+pub use crate::parameter::CaseKey;
+pub use crate::units::{Key, Need, Range};
 pub use entries::{ENTRIES, Entry};
-pub use key::{Key, Need};
 pub use options::{Choice, OPTIONS, RANGES};
 pub use tables::{TABLES, Table};
 
 use crate::case::Case;
 use crate::index::Index;
-use crate::parameter::Parameter;
+use crate::parameter::{self, Parameter};
+use crate::vehicle::AIR_SPRING;
+use crate::wheel_rail;
 
+pub(super) use crate::wheel_rail::CONICITY;
 pub(super) use entries::{
     BASE, CONDITIONS, DELIVER_WITHIN, FREE_WITHIN, FRONT_BOUNDS, FRONT_INDICES, FRONT_POINTS,
     MAXIMIZE, MINIMIZE, ORDER, PREFER, SEED, TRACK, TRACKS, UNSEEN,
 };
 
-/// The numeric keys of a case.
-pub fn case() -> impl Iterator<Item = &'static Key<Case>> {
-    [
-        vehicle::SERVICE,
-        vehicle::CARBODY,
-        vehicle::TRUCK,
-        vehicle::WHEELSET,
-        suspension::PRIMARY,
-        suspension::SECONDARY,
-        suspension::AIR_SPRING,
-        wheel_rail::WHEEL_RAIL,
-        wheel_rail::COEFFICIENTS,
-        vehicle::PASSENGER,
-    ]
-    .into_iter()
-    .flatten()
+/// The numeric keys of a case: those of the leading end stand for both ends, those of the trailing end
+/// come behind them.
+pub fn case() -> impl Iterator<Item = &'static CaseKey> {
+    parameter::keys().iter()
 }
 
-pub(super) use suspension::AIR_SPRING;
-pub(super) use wheel_rail::{COEFFICIENTS, CONICITY};
+/// Keys of the air spring: all or none.
+pub(super) fn air_spring() -> impl Iterator<Item = &'static CaseKey> {
+    case().filter(|key| key.table() == AIR_SPRING.path)
+}
+
+/// Keys of explicit coefficients of the contact.
+pub(super) fn coefficients() -> impl Iterator<Item = &'static CaseKey> {
+    let is_coefficient =
+        |key: &&CaseKey| wheel_rail::coefficients().any(|n| n.key.path == key.path);
+    case().filter(is_coefficient)
+}
 
 /// Paths of all entries of a spec.
 pub fn paths() -> Vec<&'static str> {
@@ -50,10 +46,11 @@ pub fn paths() -> Vec<&'static str> {
     paths.extend(case().map(|key| key.path));
     paths.extend(OPTIONS.iter().map(|option| option.path));
     paths.extend(RANGES.iter().map(|key| key.path));
-    paths.extend(Parameter::ALL.map(Parameter::path));
+    paths.extend(Parameter::all().map(Parameter::path));
     paths.extend(Index::ALL.map(Index::path));
     // As the tables follow each other in a spec: names known in a place are listed in this order.
-    paths.sort_by_key(|path| TABLES.iter().position(|table| table.holds(path)));
+    let place = |path: &&str| TABLES.iter().position(|table| table.holds(path));
+    paths.sort_by_key(|path| place(path).unwrap_or(TABLES.len()));
     paths
 }
 
@@ -68,37 +65,6 @@ pub fn condition_paths() -> Vec<&'static str> {
 /// The values of a case by path, in SI base units; optional keys only where they are set.
 pub fn inputs_si(inputs: &Case) -> Vec<(&'static str, f64)> {
     case()
-        .filter_map(|key| Some((key.path, (key.get)(inputs)?)))
+        .filter_map(|key| Some((key.path, key.get(inputs)?)))
         .collect()
-}
-
-/// The key of the case that a design parameter sets, in its own form or as the constant that
-/// follows from it.
-pub fn of_parameter(parameter: Parameter) -> Option<&'static Key<Case>> {
-    let name = parameter.constant().name();
-    let path = match name.split_once('_') {
-        Some((stage, constant)) => format!("suspension.{stage}.{constant}"),
-        None => format!("wheel_rail.{name}"),
-    };
-    case().find(|key| key.path == path)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_parameter_sets_its_key() {
-        for parameter in Parameter::ALL {
-            let key = of_parameter(parameter).expect("a key for every parameter");
-            let mut case = Case::prototype();
-            let before = (key.get)(&case).unwrap();
-            let value = 1.1 * parameter.get(&case);
-            parameter.set(&mut case, value);
-            assert!((key.get)(&case).unwrap() > before, "{parameter:?}");
-            if parameter.constant() == parameter {
-                assert_eq!((key.get)(&case), Some(value), "{parameter:?}");
-            }
-        }
-    }
 }

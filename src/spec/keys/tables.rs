@@ -1,5 +1,9 @@
 //! The tables of a spec, in the order in which one writes them.
 
+use std::sync::LazyLock;
+
+use crate::{case::SERVICE, vehicle, wheel_rail::WHEEL_RAIL};
+
 /// A table of a spec.
 #[derive(Debug)]
 pub struct Table {
@@ -17,72 +21,56 @@ impl Table {
     }
 }
 
-/// All of them.
-pub static TABLES: &[Table] = &[
-    table("service", "How the vehicle is used."),
-    table(
-        "vehicle",
-        "The vehicle: a carbody on two like trucks with two wheelsets each.",
+/// All of them: those of numbers come from the parts of the case.
+pub static TABLES: LazyLock<Vec<Table>> = LazyLock::new(|| {
+    let of_vehicle = |prefix: &'static str| {
+        let tables = vehicle::TABLES.iter();
+        tables
+            .filter(move |t| t.path.starts_with(prefix))
+            .map(|t| table(t.path, t.meaning))
+    };
+    let mut tables = vec![
+        table(SERVICE.path, SERVICE.meaning),
+        table("vehicle", VEHICLE),
+    ];
+    tables.extend(of_vehicle("vehicle."));
+    tables.push(table("suspension", SUSPENSION));
+    tables.extend(of_vehicle("suspension."));
+    tables.push(table(WHEEL_RAIL.path, WHEEL_RAIL.meaning));
+    tables.extend(of_vehicle("passenger"));
+    tables.extend(OTHERS.iter().map(|(path, meaning)| table(path, meaning)));
+    tables
+});
+
+const VEHICLE: &str = "The vehicle: a carbody on two trucks with two wheelsets each, which are alike unless [trailing] says otherwise.";
+const SUSPENSION: &str = "Springs and dampers; constants are per element, not per truck.";
+
+/// Tables without numbers of the case.
+const OTHERS: [(&str, &str); 9] = [
+    (
+        "trailing",
+        "The trailing end where it differs: the tables of truck, wheelset and suspension below it, such as [trailing.vehicle.truck]. What is not given is as at the leading end.",
     ),
-    table("vehicle.carbody", "One carbody."),
-    table(
-        "vehicle.carbody.bending",
-        "First vertical bending mode of the carbody.",
-    ),
-    table(
-        "vehicle.carbody.torsion_1",
-        "First torsion mode of the carbody.",
-    ),
-    table(
-        "vehicle.carbody.torsion_2",
-        "Second torsion mode of the carbody.",
-    ),
-    table("vehicle.truck", "One truck frame, without its wheelsets."),
-    table("vehicle.wheelset", "One wheelset."),
-    table(
-        "suspension",
-        "Springs and dampers; constants are per element, not per truck.",
-    ),
-    table(
-        "suspension.primary",
-        "Between wheelsets and truck frame, per corner (4 per truck).",
-    ),
-    table(
-        "suspension.secondary",
-        "Between truck frame and carbody, per side (2 per truck); yaw per truck.",
-    ),
-    table(
-        "suspension.secondary.air_spring",
-        "An air spring with orifice damping, per side; it takes the place of K_sz and C_sz in the vertical model (Figure 3.4.5a).",
-    ),
-    table(
-        "wheel_rail",
-        "Wheel and rail. Coefficients that are not given come from Table 4.1.1 for the conicity.",
-    ),
-    table(
-        "passenger",
-        "Where ride is judged: at the carbody's c.g. and at a point towards either end.",
-    ),
-    table(
+    (
         "model",
         "What the models leave open, and the ranges that they look at.",
     ),
-    table("tracks", "Tracks of one's own, each under its name."),
-    table(
+    ("tracks", "Tracks of one's own, each under its name."),
+    (
         "design",
         "What may vary, and how. A parameter takes bounds, a value that it has in every design, or a tie to another; what is not listed stays as the vehicle has it.",
     ),
-    table(
+    (
         "objective",
         "What is to be best, in place of the report's three trade-offs.",
     ),
-    table("requirements", "What the vehicle must reach."),
-    table(
+    ("requirements", "What the vehicle must reach."),
+    (
         "limits",
         "What must not be exceeded; of random motion, three standard deviations.",
     ),
-    table("pareto", "What `bogie pareto` traces."),
-    table(
+    ("pareto", "What `bogie pareto` traces."),
+    (
         "conditions",
         "Further operating conditions, each under its name.",
     ),

@@ -48,8 +48,8 @@ fn every_key_reads_what_it_writes() {
         // Different from every other key and within every range.
         let value = f64::from(i) * 1e-3;
         assert!(key.range.contains(value), "{}", key.path);
-        (key.set)(&mut case, value);
-        assert_eq!((key.get)(&case), Some(value), "{}", key.path);
+        key.set(&mut case, value);
+        assert_eq!(key.get(&case), Some(value), "{}", key.path);
     }
     let values = inputs_si(&case);
     assert_eq!(values.len(), keys::case().count());
@@ -130,13 +130,13 @@ fn example_1_reads_as_printed() {
     assert!(close(vehicle.carbody.mass, 2500.0 * SLUG));
     assert!(close(vehicle.bending_stiffness(), 1.8e6 * LBF * FOOT));
     assert!(close(spec.case.service.speed, 130.0 * MILE / 3600.0));
-    let Some(Freedom::Between(bending)) = spec.design.freedom(Parameter::PrimaryBendingStiffness)
+    let Some(Freedom::Between(bending)) = spec.design.freedom(Parameter::PRIMARY_BENDING_STIFFNESS)
     else {
         panic!("K_b is open");
     };
     assert!(close(bending.lower, 1e5 * LBF * FOOT) && close(bending.upper, 2e7 * LBF * FOOT));
     assert_eq!(
-        spec.design.freedom(Parameter::Conicity),
+        spec.design.freedom(Parameter::CONICITY),
         Some(&Freedom::Choices(vec![0.05, 0.10, 0.15, 0.25]))
     );
     assert!(close(
@@ -199,20 +199,20 @@ fn what_a_parameter_may_do() {
     assert_eq!((design.order, design.seed), (Order::Joint, 7));
     let freedom = |parameter| design.freedom(parameter).unwrap();
     assert!(matches!(
-        freedom(Parameter::PrimaryLongitudinalStiffness),
+        freedom(Parameter::PRIMARY_LONGITUDINAL_STIFFNESS),
         Freedom::Between(bounds) if close(bounds.lower, 1e6) && close(bounds.upper, 2e6)
     ));
     let tied = Freedom::Tied {
-        to: Parameter::PrimaryLongitudinalStiffness,
+        to: Parameter::PRIMARY_LONGITUDINAL_STIFFNESS,
         ratio: 0.5,
     };
-    assert_eq!(*freedom(Parameter::PrimaryLateralStiffness), tied);
+    assert_eq!(*freedom(Parameter::PRIMARY_LATERAL_STIFFNESS), tied);
     assert_eq!(
-        *freedom(Parameter::SecondaryLateralFrequency),
+        *freedom(Parameter::SECONDARY_LATERAL_FREQUENCY),
         Freedom::Fixed(0.9)
     );
     assert!(matches!(
-        freedom(Parameter::SecondaryYawBreakawayTorque),
+        freedom(Parameter::SECONDARY_YAW_BREAKAWAY_TORQUE),
         Freedom::Between(bounds) if bounds.lower == 0.0
     ));
 }
@@ -360,10 +360,10 @@ fn a_plain_value_in_the_design_stands_beside_the_vehicles_own() {
         parse(&format!("{BASE}{source}{value}"))
     };
     let spec = of("5 MN/m");
-    let freedom = spec.design.freedom(Parameter::PrimaryLateralStiffness);
+    let freedom = spec.design.freedom(Parameter::PRIMARY_LATERAL_STIFFNESS);
     assert_eq!(freedom, Some(&Freedom::Fixed(5e6)));
     assert!(close(
-        Parameter::PrimaryLateralStiffness.get(&spec.case),
+        Parameter::PRIMARY_LATERAL_STIFFNESS.get(&spec.case),
         7.3e6
     ));
     assert_eq!(spec.doubts.iter().count(), 1);

@@ -3,8 +3,7 @@
 use serde_json::{Value, json};
 
 use super::capital;
-use crate::case::Case;
-use crate::spec::keys::{Key, Need};
+use crate::spec::keys::Need;
 use crate::units::{LONGEST, Quantity, Range, pattern};
 
 /// Names of the definitions of a value with its unit, of any sign and above zero.
@@ -67,8 +66,17 @@ pub fn described(mut schema: Value, meaning: &str) -> Value {
     schema
 }
 
-/// `schema` with what a key means, its range and its default.
-pub fn described_key<V>(mut schema: Value, key: &Key<Case, V>) -> Value {
+/// The description of a key.
+pub struct Described {
+    pub symbol: &'static str,
+    pub quantity: Quantity,
+    pub meaning: &'static str,
+    pub range: Range,
+    pub need: Need,
+}
+
+/// `schema` with the meaning of a key, its range and its default.
+pub fn described_key(mut schema: Value, key: &Described) -> Value {
     let symbol = match key.symbol {
         "" => String::new(),
         symbol => format!(", {symbol}"),

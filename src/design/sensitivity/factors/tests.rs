@@ -79,7 +79,7 @@ fn what_the_design_determines_is_no_factor() {
     let primary = &case.vehicle.suspension.primary;
     let ratio = primary.lateral_stiffness / primary.longitudinal_stiffness;
     assert!((ratio - 0.5).abs() < 1e-12);
-    let frequency = Parameter::PrimaryVerticalFrequency.get(&case);
+    let frequency = Parameter::PRIMARY_VERTICAL_FREQUENCY.get(&case);
     assert!((frequency - 10.0).abs() < 1e-9, "{frequency}");
 }
 
