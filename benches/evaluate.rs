@@ -3,7 +3,7 @@
 use bogie::{
     case::Case,
     design::measure::{Wanted, measure, measure_graded},
-    dynamics::{LateralModel, Poles, VerticalModel},
+    dynamics::{LateralModel, VerticalModel},
     evaluate::{
         Evaluation,
         critical_speed::Stability,
@@ -11,6 +11,7 @@ use bogie::{
         ride::{LateralRide, VerticalRide},
     },
     index::Index,
+    numerics::Poles,
     parameter::Parameter,
 };
 use divan::{Bencher, black_box, counter::ItemsCount};

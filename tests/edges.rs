@@ -6,7 +6,7 @@ mod support;
 use bogie::{
     case::Case,
     closed_form::natural_frequencies::carbody_roll,
-    dynamics::{LateralModel, Poles, curving::CurvingError, eigenvalues},
+    dynamics::{LateralModel, curving::CurvingError},
     evaluate::{
         Evaluation,
         critical_speed::{Outcome, Stability},
@@ -16,6 +16,7 @@ use bogie::{
     },
     export::{evaluation_json::evaluation as json, modes::Modes, psd::Spectra},
     index::Index,
+    numerics::{Poles, eigenvalues},
     optimize::problem::Failure,
 };
 use serde_json::Value;

@@ -5,13 +5,14 @@ mod support;
 use bogie::{
     case::Case,
     design::tasks::Tasks,
-    dynamics::{ForcedModel, LateralModel, Poles, VerticalModel, eigenvalues, elimination::LANES},
+    dynamics::{ForcedModel, LateralModel, VerticalModel},
     evaluate::{
         critical_speed::Stability,
         damping_range::DampingRange,
         response::{Response, plain},
     },
     index::Index,
+    numerics::{Poles, eigenvalues, elimination::LANES},
     vehicle::{AirSpring, Suspension},
 };
 use rand::SeedableRng;

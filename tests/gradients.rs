@@ -5,7 +5,7 @@ mod support;
 use bogie::{
     case::{Case, CurvingCreep, TruckRoll},
     design::measure::{Wanted, measure, measure_graded},
-    dynamics::{LateralModel, Poles, VerticalModel, curving::CurvingModel},
+    dynamics::{LateralModel, VerticalModel, curving::CurvingModel},
     evaluate::{
         critical_speed::Stability,
         curving::{CurvingLimits, CurvingState, Limit, ServiceCurve},
@@ -13,6 +13,7 @@ use bogie::{
         ride::{LateralRide, VerticalRide},
     },
     index::Index,
+    numerics::Poles,
     optimize::problem::Piece,
     parameter::Parameter,
 };

@@ -3,7 +3,6 @@
 mod support;
 
 use approx::assert_relative_eq;
-use bogie::vehicle::AirSpring;
 use bogie::{
     case::{Case, Crosslevel, CurvingCreep, TruckRoll},
     closed_form::{
@@ -13,7 +12,6 @@ use bogie::{
     dynamics::{
         LateralModel,
         curving::{Breakaway, CurvingError, Side},
-        eigenvalues,
     },
     evaluate::{
         Evaluation,
@@ -21,6 +19,8 @@ use bogie::{
         curving::{CurvingLimits, CurvingState},
         vertical_modes::VerticalShape,
     },
+    numerics::eigenvalues,
+    vehicle::AirSpring,
 };
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

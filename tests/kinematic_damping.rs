@@ -5,9 +5,10 @@ mod support;
 use bogie::{
     case::Case,
     design::measure::{Wanted, measure, measure_graded},
-    dynamics::{LateralModel, Poles},
+    dynamics::LateralModel,
     evaluate::{Evaluation, kinematic_mode::KinematicMode, lateral_modes::LateralModes},
     index::Index,
+    numerics::Poles,
     optimize::problem::Failure,
     parameter::Parameter,
 };

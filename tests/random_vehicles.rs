@@ -5,11 +5,12 @@ mod support;
 
 use bogie::{
     case::Case,
-    dynamics::{LateralModel, Poles, VerticalModel, eigenvalues},
+    dynamics::{LateralModel, VerticalModel},
     evaluate::{
-        Evaluation, critical_speed::Stability, damping_range::DampingRange, integration::integrate,
-        panels::panels, response::Response,
+        Evaluation, critical_speed::Stability, damping_range::DampingRange, panels::panels,
+        response::Response,
     },
+    numerics::{Poles, eigenvalues, quadrature::integrate},
     parameter::Parameter,
 };
 use rand::SeedableRng;

@@ -5,14 +5,14 @@ mod support;
 
 use bogie::{
     case::Case,
-    dynamics::{Excitation, ForcedModel, LinearSystem, Output, Poles, Row, VerticalModel},
+    dynamics::{Excitation, ForcedModel, Output, Row, VerticalModel},
     evaluate::{
         Evaluation,
-        integration::integrate,
         panels::panels,
         response::Response,
         ride::{NoRide, VerticalRide},
     },
+    numerics::{LinearSystem, Poles, quadrature::integrate},
     track::Irregularity,
 };
 use nalgebra::Complex;

@@ -5,16 +5,16 @@ mod support;
 
 use bogie::{
     case::{Case, CurvingCreep},
-    dynamics::{LateralModel, Poles, VerticalModel, elimination::LANES},
+    dynamics::{LateralModel, VerticalModel},
     evaluate::{
         Evaluation,
         critical_speed::Stability,
-        integration::integrate,
         panels::panels,
         response::{Response, plain},
         warnings::warnings,
     },
     export,
+    numerics::{Poles, elimination::LANES, quadrature::integrate},
     spec::{Spec, keys},
     track::{Spectrum, Track, curvature_of_degree},
     units::{DisplayUnit, Quantity},

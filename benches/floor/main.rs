@@ -11,17 +11,18 @@ use std::{hint::black_box, time::Instant};
 
 use bogie::{
     case::Case,
-    dynamics::{
-        ForcedModel, LateralModel, Pairs, Poles, Refiner, VerticalModel,
-        elimination::{LANES, Lanes},
-    },
+    dynamics::{ForcedModel, LateralModel, VerticalModel},
     evaluate::{
         critical_speed::Stability,
         curving::CurvingLimits,
-        integration::integrate,
         panels::panels,
         response::Response,
         ride::{LateralRide, VerticalRide},
+    },
+    numerics::{
+        Pairs, Poles, Refiner,
+        elimination::{LANES, Lanes},
+        quadrature::integrate,
     },
 };
 use count::Elimination;

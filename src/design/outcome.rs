@@ -10,9 +10,9 @@ use super::{
 };
 use crate::{
     case::Case,
-    dynamics::EigenError,
     evaluate::Evaluation,
     index::Index,
+    numerics::EigenError,
     optimize::{
         archive::Stop,
         local::Status,

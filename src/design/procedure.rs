@@ -21,9 +21,9 @@ use super::{
 };
 use crate::{
     case::Case,
-    dynamics::EigenError,
     evaluate::Evaluation,
     index::Index,
+    numerics::EigenError,
     optimize::{
         archive::{Archive, Stop},
         problem::Problem,

@@ -2,11 +2,12 @@
 
 use super::{
     branches::{Branches, Care, Event, Search},
-    mode::{Mode, frequency},
+    mode::Mode,
 };
 use crate::{
     case::Case,
-    dynamics::{EigenError, LateralModel, Poles, lateral::Body},
+    dynamics::{LateralModel, lateral::Body},
+    numerics::{EigenError, Poles, frequency},
 };
 
 /// Which body hunts.

@@ -8,11 +8,11 @@ use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 
-use super::{
-    branches::{Branches, COMPLETE, Care, Search},
-    mode::{damping_ratio, frequency},
+use super::branches::{Branches, COMPLETE, Care, Search};
+use crate::{
+    dynamics::LateralModel,
+    numerics::{EigenError, Eigenvalue, Poles, damping_ratio, diverge, frequency},
 };
-use crate::dynamics::{EigenError, Known, LateralModel, Poles, diverge};
 
 /// Where in the range a minimum lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -131,7 +131,7 @@ impl DampingMinimum {
         Complex::new(-zeta, (1.0 - zeta * zeta).max(0.0).sqrt()) * size
     }
 
-    fn new(place: Place, known: &Known) -> Self {
+    fn new(place: Place, known: &Eigenvalue) -> Self {
         Self {
             place,
             speed: known.speed,

@@ -21,14 +21,12 @@ use std::f64::consts::{SQRT_2, TAU};
 
 use nalgebra::{Complex, DVector};
 
-use super::{
-    gradients::modes,
-    mode::{Mode, damping_ratio, damping_ratio_change, size},
-};
+use super::{gradients::modes, mode::Mode};
 use crate::{
     case::Case,
     closed_form::kinematic,
-    dynamics::{EigenError, ForcedTangent, LateralModel, diverge, eigenvalues},
+    dynamics::{ForcedTangent, LateralModel},
+    numerics::{EigenError, damping_ratio, damping_ratio_change, diverge, eigenvalues, size},
 };
 
 /// Growth of the weight of a damping ratio with the square of the distance from the band, in ln f.

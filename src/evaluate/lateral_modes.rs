@@ -2,14 +2,15 @@
 
 use super::{
     kinematic_mode::{KinematicBand, KinematicMode},
-    mode::{Mode, damping_ratio, frequency},
+    mode::Mode,
 };
 use crate::{
     case::Case,
     dynamics::{
-        EigenError, LateralModel, Poles,
+        LateralModel,
         lateral::{Body, Coordinate},
     },
+    numerics::{EigenError, Poles, damping_ratio, frequency},
 };
 
 /// Damping ratio above which a pair counts as not oscillating: rounding decides whether it comes

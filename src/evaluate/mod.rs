@@ -9,7 +9,6 @@ pub mod curving;
 pub mod damping_range;
 pub mod equalization;
 pub mod gradients;
-pub mod integration;
 pub mod kinematic_mode;
 pub mod lateral_modes;
 pub mod limits;
@@ -32,7 +31,8 @@ use vertical_modes::VerticalMode;
 
 use crate::{
     case::Case,
-    dynamics::{EigenError, LateralModel, Poles, VerticalModel, curving::CurvingError},
+    dynamics::{LateralModel, VerticalModel, curving::CurvingError},
+    numerics::{EigenError, Poles},
 };
 
 /// All performance indices of a case.

@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use crate::dynamics::{LinearSystem, Pairs};
+use crate::numerics::{Eigenpairs, LinearSystem};
 
 /// A solution v of D(s) v = 0 with the left vector w of wᴴ D(s) = 0.
 #[derive(Debug, Clone)]
@@ -13,28 +13,6 @@ pub struct Mode {
     pub shape: DVector<Complex<f64>>,
     /// w.
     pub left: DVector<Complex<f64>>,
-}
-
-/// |s|, without the care that numbers near the ends of the range would need.
-pub(super) fn size(s: Complex<f64>) -> f64 {
-    s.norm_sqr().sqrt()
-}
-
-/// Frequency |s|/2π in Hz of an eigenvalue.
-pub fn frequency(s: Complex<f64>) -> f64 {
-    size(s) / std::f64::consts::TAU
-}
-
-/// Damping ratio −Re s/|s| of an eigenvalue.
-pub fn damping_ratio(s: Complex<f64>) -> f64 {
-    -s.re / size(s)
-}
-
-/// Change of the damping ratio with that of the eigenvalue.
-pub fn damping_ratio_change(s: Complex<f64>, change: Complex<f64>) -> f64 {
-    let size = size(s);
-    let growth = (s.re * change.re + s.im * change.im) / size;
-    (s.re * growth / size - change.re) / size
 }
 
 /// Steps of inverse iteration: one is enough for an eigenvalue good to 1e-12, the second cleans.
@@ -65,7 +43,7 @@ impl Mode {
     }
 
     /// The eigenpair in a lane. `None` if its vectors are not finite.
-    pub fn of_pair(pairs: &Pairs, l: usize) -> Option<Self> {
+    pub fn of_pair(pairs: &Eigenpairs, l: usize) -> Option<Self> {
         let [shape, left] = pairs.vectors(l);
         Some(Self {
             eigenvalue: pairs.s.lane(l),

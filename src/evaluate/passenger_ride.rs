@@ -1,15 +1,15 @@
 //! What passengers feel: comfort indices and one-third-octave bands (3.3.4).
 
 use super::{
-    integration::Integrals,
-    panels::{divided, panels},
+    panels::response_panels,
     response::Response,
     ride::{NoRide, mean_squares, rms_change, stationary},
 };
 use crate::{
     case::Case,
     comfort::{iso_boundary, sperling, third_octave, weighting},
-    dynamics::{ForcedModel, ForcedTangent, LateralModel, Poles, VerticalModel},
+    dynamics::{ForcedModel, ForcedTangent, LateralModel, VerticalModel},
+    numerics::{Poles, panels::divided, quadrature::Integrals},
 };
 
 /// What one passenger point feels in one direction.
@@ -154,7 +154,7 @@ impl Spectra {
         stationary(model, poles)?;
         let [low, high] = case.model.frequency_band;
         let bands = third_octave::edges_between(low, high);
-        let edges = divided(panels(model, case, poles), &bands);
+        let edges = divided(response_panels(model, case, poles), &bands);
         let accelerations = Response::of(model, &case.service.track, case.service.speed, 0..3);
         let accelerations = accelerations.with_tangents(tangents);
         let integrals = mean_squares(accelerations, case, poles, &edges, 9, |f, values| {

@@ -1,16 +1,14 @@
 //! Ride on irregular track: RMS accelerations and strokes (3.2.1).
 
-use super::{
-    integration::{Integrals, integrate},
-    panels::{divided, panels},
-    response::Response,
-    rounding,
-};
+use super::{panels::response_panels, response::Response, rounding};
 use crate::{
     case::Case,
-    dynamics::{
-        EigenError, ForcedModel, ForcedTangent, LateralModel, Poles, VerticalModel,
-        elimination::LANES, lateral, vertical,
+    dynamics::{ForcedModel, ForcedTangent, LateralModel, VerticalModel, lateral, vertical},
+    numerics::{
+        EigenError, Poles,
+        elimination::LANES,
+        panels::divided,
+        quadrature::{Integrals, integrate},
     },
 };
 
@@ -142,7 +140,7 @@ pub(crate) fn mean_squares_between(
     stationary(model, &poles)?;
     let outputs = output..output + 1;
     let response = Response::of(model, &case.service.track, case.service.speed, outputs);
-    let panels = divided(panels(model, case, &poles), edges);
+    let panels = divided(response_panels(model, case, &poles), edges);
     let integrals = mean_squares(response, case, &poles, &panels, 0, |_, _| ())?;
     let between = edges
         .windows(2)
@@ -168,7 +166,7 @@ fn rms<T>(
     let outputs = model.outputs.len();
     let response = Response::new(model, &case.service.track, case.service.speed);
     let response = response.with_tangents(tangents);
-    let edges = panels(model, case, poles);
+    let edges = response_panels(model, case, poles);
     let integrals = mean_squares(response, case, poles, &edges, 0, |_, _| ())?;
     let rms: Vec<f64> = (0..outputs).map(|k| integrals.total(k).sqrt()).collect();
     let derivatives = (1..=tangents.len()).map(|p| {

@@ -21,10 +21,11 @@ use std::{f64::consts::TAU, ops::Range};
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use super::mode::{Mode, damping_ratio, size};
+use super::mode::Mode;
 use crate::{
     case::Case,
-    dynamics::{Excitation, ForcedModel, LinearSystem, Output, Poles, Row},
+    dynamics::{Excitation, ForcedModel, Output, Row},
+    numerics::{LinearSystem, Poles, damping_ratio, size},
 };
 
 /// Damping ratio above which rounding is not looked at: δ would have to be 10⁶ ε|s| for a share of

@@ -1,10 +1,10 @@
 //! Modes of the vertical model, named by what moves; they do not depend on the speed.
 
-use super::{
-    lateral_modes::OVERDAMPED,
-    mode::{Mode, damping_ratio, frequency},
+use super::{lateral_modes::OVERDAMPED, mode::Mode};
+use crate::{
+    dynamics::{VerticalModel, vertical::Coordinate},
+    numerics::{EigenError, Poles, damping_ratio, frequency},
 };
-use crate::dynamics::{EigenError, Poles, VerticalModel, vertical::Coordinate};
 
 /// What a mode of the vertical model does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

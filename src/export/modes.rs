@@ -10,11 +10,12 @@ use super::{
 };
 use crate::{
     case::Case,
-    dynamics::{EigenError, LateralModel, Poles, VerticalModel},
+    dynamics::{LateralModel, VerticalModel},
     evaluate::{
         lateral_modes::{AtSpeed, LateralModes},
         vertical_modes::{VerticalMode, vertical_modes},
     },
+    numerics::{EigenError, Poles},
     units::Quantity,
 };
 

@@ -11,14 +11,12 @@ use super::{
 };
 use crate::{
     case::Case,
-    dynamics::{
-        EigenError, ForcedModel, LateralModel, Poles, VerticalModel, elimination::LANES, lateral,
-        vertical,
-    },
+    dynamics::{ForcedModel, LateralModel, VerticalModel, lateral, vertical},
     evaluate::{
         response::Response,
         ride::{NoRide, stationary},
     },
+    numerics::{EigenError, Poles, elimination::LANES},
 };
 
 /// A spectrum: name with unit, values.

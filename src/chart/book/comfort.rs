@@ -8,11 +8,12 @@ use super::{
 use crate::{
     chart::{Axis, Curve, Dash, Family, Figure, Ink, Labels, Panel, Scale, Stroke, Unit, Weight},
     comfort::{iso_boundary, third_octave},
-    dynamics::{ForcedModel, LateralModel, Poles, VerticalModel, lateral, vertical},
+    dynamics::{ForcedModel, LateralModel, VerticalModel, lateral, vertical},
     evaluate::{
         passenger_ride::{BandRide, PassengerRide},
         ride::mean_squares_between,
     },
+    numerics::Poles,
     units::Quantity,
 };
 

@@ -5,11 +5,12 @@ use super::{
 };
 use crate::{
     chart::{Axis, Curve, Family, Figure, Ink, Labels, Mark, Panel, Scale, Stroke, Symbol, Unit},
-    dynamics::{LateralModel, Poles, VerticalModel},
+    dynamics::{LateralModel, VerticalModel},
     evaluate::{
         lateral_modes::{LateralShape, OVERDAMPED},
         vertical_modes::{VerticalShape, vertical_modes},
     },
+    numerics::Poles,
     parameter::Parameter,
 };
 

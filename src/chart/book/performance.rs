@@ -2,7 +2,7 @@
 
 use crate::{
     case::Case,
-    dynamics::{LateralModel, Poles, VerticalModel},
+    dynamics::{LateralModel, VerticalModel},
     evaluate::{
         critical_speed::{Outcome, Stability},
         curving::CurvingLimits,
@@ -10,6 +10,7 @@ use crate::{
         passenger_ride::PassengerRide,
         ride::{LateralRide, VerticalRide},
     },
+    numerics::Poles,
     optimize::problem::Failure,
 };
 

@@ -15,8 +15,8 @@ use crate::{
         Axis, Curve, Dash, Direction, Family, Figure, Ink, Labels, Mark, Panel, Scale, Stroke,
         Symbol, Unit, Weight,
     },
-    evaluate::mode::{damping_ratio, frequency},
     index::Index,
+    numerics::{damping_ratio, frequency},
     parameter::Parameter,
     units::Quantity,
 };

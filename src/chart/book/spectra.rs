@@ -14,8 +14,9 @@ use crate::{
         Weight,
     },
     comfort::iso_boundary,
-    dynamics::{ForcedModel, LateralModel, VerticalModel, elimination::LANES, lateral, vertical},
+    dynamics::{ForcedModel, LateralModel, VerticalModel, lateral, vertical},
     evaluate::{response::Response, ride::mean_squares_between},
+    numerics::elimination::LANES,
     vehicle::GRAVITY,
 };
 

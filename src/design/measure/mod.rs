@@ -10,13 +10,14 @@ use std::cell::OnceCell;
 
 use crate::{
     case::Case,
-    dynamics::{EigenError, ForcedTangent, LateralModel, Poles, VerticalModel},
+    dynamics::{ForcedTangent, LateralModel, VerticalModel},
     evaluate::{
         curving::Limit,
         gradients::Constants,
         ride::{NoRide, VerticalRide},
     },
     index::{Behaviour, Index},
+    numerics::{EigenError, Poles},
     optimize::problem::{Failure, Piece},
     parameter::Parameter,
     track::MAX_DEGREE,

@@ -10,9 +10,10 @@ use crate::{
         gradients::modes,
         kinematic_mode::{KinematicBand, KinematicMode},
         lateral_modes::LateralModes,
-        mode::{Mode, damping_ratio_change},
+        mode::Mode,
     },
     index::Index,
+    numerics::damping_ratio_change,
     optimize::problem::{Failure, Piece},
 };
 

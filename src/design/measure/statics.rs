@@ -3,13 +3,14 @@
 use super::{Measured, Vertical, pieces};
 use crate::{
     case::Case,
-    dynamics::{Poles, VerticalModel},
+    dynamics::VerticalModel,
     evaluate::{
         checks::separations,
         gradients::five_point,
         vertical_modes::{flexible_separations, vertical_modes},
     },
     index::Index,
+    numerics::Poles,
     optimize::{
         follow,
         problem::{Failure, Piece},

@@ -2,13 +2,16 @@
 
 use nalgebra::Complex;
 
-use super::{cubic::Between, search::Search, state::State};
+use super::{search::Search, state::State};
 use crate::{
-    dynamics::{
-        Known, Pairs, Refiner, SETTLED,
+    evaluate::mode::Mode,
+    numerics::{
+        Eigenpairs, Eigenvalue, PAIR_CONVERGED, Refiner,
+        cubic::Between,
+        damping_ratio, damping_ratio_change,
         elimination::{LANES, Lanes},
+        size,
     },
-    evaluate::mode::{Mode, damping_ratio, damping_ratio_change, size},
 };
 
 /// What to look for on a branch between two speeds.
@@ -26,7 +29,7 @@ pub struct Event {
     /// Which kind.
     pub sought: Sought,
     /// Where.
-    pub at: Known,
+    pub at: Eigenvalue,
     /// Shape and left vector.
     pub mode: Option<Mode>,
 }
@@ -59,21 +62,21 @@ impl Sought {
 struct Bracket {
     lane: usize,
     sought: Sought,
-    low: Known,
-    high: Known,
+    low: Eigenvalue,
+    high: Eigenvalue,
     /// The lower end at first.
-    low_end: Known,
+    low_end: Eigenvalue,
     /// Whether the ends have been looked at closely.
     exact: [bool; 2],
     /// Where it is expected.
-    guess: Known,
+    guess: Eigenvalue,
     /// How far to go beyond an end, in ln V.
     reach: f64,
     found: Option<Event>,
 }
 
 impl Bracket {
-    fn new(sought: Sought, lane: usize, low: Known, high: Known) -> Self {
+    fn new(sought: Sought, lane: usize, low: Eigenvalue, high: Eigenvalue) -> Self {
         Self {
             lane,
             sought,
@@ -89,7 +92,7 @@ impl Bracket {
 
     /// Goes on from what is `known` where it was expected, having the mode's shape from `mode`. `None` if
     /// what is sought is not where the ends close in on: then they are not of the same mode.
-    fn narrow(&mut self, known: Known, mode: impl FnOnce() -> Option<Mode>) -> Option<()> {
+    fn narrow(&mut self, known: Eigenvalue, mode: impl FnOnce() -> Option<Mode>) -> Option<()> {
         let is_below = self.sought.function([known.s, known.slope]) < 0.0;
         let (end, beyond) = if is_below {
             self.low = known;
@@ -106,7 +109,7 @@ impl Bracket {
         } else if !self.exact[usize::from(is_below)] && apart(end.speed) < 2.0 * FOUND {
             // The end was not quite right: it is beyond.
             self.reach *= FURTHER;
-            self.guess = Known {
+            self.guess = Eigenvalue {
                 speed: known.speed * beyond.exp(),
                 s: known.expected(beyond, None),
                 slope: known.slope,
@@ -123,9 +126,9 @@ impl Bracket {
 }
 
 /// What is sought between two speeds, on the cubic.
-fn expected(sought: Sought, low: &Known, high: &Known) -> Known {
+fn expected(sought: Sought, low: &Eigenvalue, high: &Eigenvalue) -> Eigenvalue {
     let between = Between::new(low, high);
-    between.known(between.root(|at| sought.function(at)))
+    between.eigenvalue(between.root(|at| sought.function(at)))
 }
 
 /// Adds to a search what it seeks between two neighbouring speeds. Onsets are those at which a mode
@@ -186,14 +189,15 @@ fn close(refiner: &mut Refiner, start: &State, brackets: &mut [Bracket]) -> Opti
         pairs.take(l, &start.pairs, brackets[lane(l, brackets)].lane);
     }
     for _ in 0..STEPS {
-        let guesses: [Known; LANES] = std::array::from_fn(|l| brackets[lane(l, brackets)].guess);
+        let guesses: [Eigenvalue; LANES] =
+            std::array::from_fn(|l| brackets[lane(l, brackets)].guess);
         pairs.s = Lanes::from_fn(|l| guesses[l].s);
         pairs.speed = guesses.map(|guess| guess.speed);
-        if !refiner.settle(&mut pairs, brackets.len(), SETTLED) {
+        if !refiner.converge(&mut pairs, brackets.len(), PAIR_CONVERGED) {
             return None;
         }
         for (l, bracket) in brackets.iter_mut().enumerate() {
-            let known = pairs.known(l);
+            let known = pairs.eigenvalue(l);
             let apart = size(known.s - guesses[l].s);
             if apart.is_nan() || apart > AGREE * size(known.s) {
                 return None;
@@ -211,24 +215,24 @@ fn close(refiner: &mut Refiner, start: &State, brackets: &mut [Bracket]) -> Opti
 }
 
 /// Whether what was found on different branches is not the same.
-fn apart(pairs: &Pairs, brackets: &[Bracket]) -> bool {
+fn apart(pairs: &Eigenpairs, brackets: &[Bracket]) -> bool {
     (0..brackets.len()).all(|i| {
         (0..i).all(|j| {
             let same = (pairs.speed[i] / pairs.speed[j] - 1.0).abs() < SAME;
             !(brackets[i].sought == brackets[j].sought
                 && same
-                && Pairs::alike((pairs, i), (pairs, j)))
+                && Eigenpairs::same_shape((pairs, i), (pairs, j)))
         })
     })
 }
 
 /// An onset is brought to Re s = 0 by a last Newton step, which must be short.
-fn finished(sought: Sought, known: &Known) -> Option<Known> {
+fn finished(sought: Sought, known: &Eigenvalue) -> Option<Eigenvalue> {
     if sought == Sought::Minimum {
         return Some(*known);
     }
     let step = -known.s.re / known.slope.re;
-    (step.abs() < LAST).then(|| Known {
+    (step.abs() < LAST).then(|| Eigenvalue {
         speed: known.speed * step.exp(),
         s: Complex::new(0.0, known.s.im + known.slope.im * step),
         slope: known.slope,
@@ -236,7 +240,7 @@ fn finished(sought: Sought, known: &Known) -> Option<Known> {
 }
 
 /// Whether a branch has a minimum of damping between two speeds that may fall below a value.
-fn minimum(low: &Known, high: &Known, below: f64) -> bool {
+fn minimum(low: &Eigenvalue, high: &Eigenvalue, below: f64) -> bool {
     let [falls, rises] = [low, high].map(|known| damping_ratio_change(known.s, known.slope));
     let ends = damping_ratio(low.s).min(damping_ratio(high.s));
     // Straight down and up again would be lowest of all.

@@ -6,15 +6,14 @@
 use nalgebra::Complex;
 
 use super::{
-    cubic::Cubic,
     events::{Sought, find},
     search::Search,
     state::{STRONG, State},
     track::{Branches, take_nearest, worth_following},
 };
 use crate::{
-    dynamics::{ForcedModel, Known, Poles, elimination::LANES},
-    evaluate::mode::{damping_ratio, size},
+    dynamics::ForcedModel,
+    numerics::{Eigenvalue, Poles, cubic::Cubic, damping_ratio, elimination::LANES, size},
 };
 
 /// Widths of a jump that are tried, in ln V.
@@ -37,7 +36,9 @@ impl Branches<'_> {
                 continue;
             };
             let uncertain = |state: &State, l: usize| {
-                state.alive[l] && !clear[l] && damping_ratio(state.known(l).s) < search.clear_of
+                state.alive[l]
+                    && !clear[l]
+                    && damping_ratio(state.eigenvalue(l).s) < search.clear_of
             };
             let lanes: Vec<usize> = (0..LANES)
                 .filter(|&l| uncertain(now, l) || uncertain(&next, l))
@@ -83,7 +84,7 @@ impl Twins {
     /// The mode in a lane and that nearest to it, in the same lane on both sides.
     fn of(before: &State, after: &State, lane: usize) -> Option<(usize, Self)> {
         let nearest = |state: &State| {
-            let apart = |l: usize| (state.known(l).s - state.known(lane).s).norm_sqr();
+            let apart = |l: usize| (state.eigenvalue(l).s - state.eigenvalue(lane).s).norm_sqr();
             let others = state.living().filter(|&l| l != lane);
             others.min_by(|&a, &b| apart(a).total_cmp(&apart(b)))
         };
@@ -91,13 +92,13 @@ impl Twins {
         if nearest(after) != Some(other) || !before.alive[lane] || !after.alive[lane] {
             return None;
         }
-        let [a, b] = [before, after].map(|state| [state.known(lane), state.known(other)]);
+        let [a, b] = [before, after].map(|state| [state.eigenvalue(lane), state.eigenvalue(other)]);
         let h = (b[0].speed / a[0].speed).ln();
-        let mean = |pair: [Known; 2]| {
+        let mean = |pair: [Eigenvalue; 2]| {
             let [one, two] = pair;
             [(one.s + two.s) / 2.0, (one.slope + two.slope) * (h / 2.0)]
         };
-        let square = |pair: [Known; 2]| {
+        let square = |pair: [Eigenvalue; 2]| {
             let [one, two] = pair;
             let half = (one.s - two.s) / 2.0;
             [half * half, half * (one.slope - two.slope) * h]
@@ -162,7 +163,7 @@ fn matched(
     let (mut lanes, mut clear) = ([None; LANES], [false; LANES]);
     let all = values.clone();
     for l in now.living() {
-        let known = now.known(l);
+        let known = now.eigenvalue(l);
         let expected = known.expected((speed / known.speed).ln(), None);
         // A strongly damped one may have left the sector that is followed.
         let Some(s) = take_nearest(&mut values, expected, STRONG * size(expected)) else {

@@ -8,15 +8,12 @@
 //! Where modes come too close to be told apart, or one that was not followed turns up, the answer
 //! is `None`: full spectra answer then.
 
-mod cubic;
 mod events;
 mod jump;
 mod search;
-mod sector;
 mod state;
 mod track;
 
 pub use events::{Event, Sought};
 pub use search::{Care, Search};
-pub use sector::modes_below;
 pub use track::{Branches, COMPLETE, Walked};

@@ -2,12 +2,10 @@
 
 use nalgebra::Complex;
 
-use crate::{
-    dynamics::{
-        Known, Pairs, Refiner,
-        elimination::{LANES, Lanes},
-    },
-    evaluate::mode::{damping_ratio, size},
+use crate::numerics::{
+    Eigenpairs, Eigenvalue, Refiner, damping_ratio,
+    elimination::{LANES, Lanes},
+    size,
 };
 
 /// Damping ratio above which a mode is let go where it cannot be told apart from another: it
@@ -22,7 +20,7 @@ const EXPECTED: f64 = 1e-6;
 /// Up to [`LANES`] modes at one speed. Lanes without a mode of their own repeat another's.
 #[derive(Debug, Clone)]
 pub(super) struct State {
-    pub pairs: Pairs,
+    pub pairs: Eigenpairs,
     pub alive: [bool; LANES],
 }
 
@@ -52,7 +50,7 @@ impl State {
         let shift = Complex::new(1.0 + 1e-8, 1e-8);
         let s = Lanes::from_fn(|l| shift * values[l]);
         let mut state = Self {
-            pairs: Pairs::near(s, [speed; LANES], refiner.order()),
+            pairs: Eigenpairs::near(s, [speed; LANES], refiner.order()),
             alive,
         };
         if first.is_none() {
@@ -61,7 +59,7 @@ impl State {
         refiner.step(&mut state.pairs);
         refiner.step(&mut state.pairs);
         let lost = |state: &Self, l: usize| {
-            let apart = size(state.known(l).s - values[l]);
+            let apart = size(state.eigenvalue(l).s - values[l]);
             apart.is_nan() || apart > EXPECTED * size(values[l]) || state.repeats(l)
         };
         state.bury(|state, l| damping_ratio(values[l]) > STRONG && lost(state, l));
@@ -75,13 +73,13 @@ impl State {
         self.alive = other.alive;
     }
 
-    pub fn known(&self, l: usize) -> Known {
-        self.pairs.known(l)
+    pub fn eigenvalue(&self, l: usize) -> Eigenvalue {
+        self.pairs.eigenvalue(l)
     }
 
     /// A mode at the lower and the higher of two speeds, if it is followed at both.
-    pub fn from_to(before: &Self, after: &Self, l: usize) -> Option<[Known; 2]> {
-        let both = [before.known(l), after.known(l)];
+    pub fn from_to(before: &Self, after: &Self, l: usize) -> Option<[Eigenvalue; 2]> {
+        let both = [before.eigenvalue(l), after.eigenvalue(l)];
         let ascending = if both[0].speed > both[1].speed {
             [both[1], both[0]]
         } else {
@@ -127,8 +125,8 @@ impl State {
 
     /// Whether two modes at one speed are the same.
     pub fn same((a, i): (&Self, usize), (b, j): (&Self, usize)) -> bool {
-        let (s, other) = (a.known(i).s, b.known(j).s);
+        let (s, other) = (a.eigenvalue(i).s, b.eigenvalue(j).s);
         (other - s).norm_sqr() < CLOSE * CLOSE * s.norm_sqr()
-            && Pairs::alike((&a.pairs, i), (&b.pairs, j))
+            && Eigenpairs::same_shape((&a.pairs, i), (&b.pairs, j))
     }
 }

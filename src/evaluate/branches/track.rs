@@ -3,15 +3,16 @@
 use nalgebra::Complex;
 
 use super::{
-    cubic::Between,
     events::{Event, find},
     search::Search,
-    sector::modes_below,
     state::{STRONG, State},
 };
 use crate::{
-    dynamics::{Known, LateralModel, Pairs, Poles, Refiner, SETTLED, elimination::LANES},
-    evaluate::mode::{damping_ratio, size},
+    dynamics::LateralModel,
+    numerics::{
+        Eigenpairs, Eigenvalue, PAIR_CONVERGED, Poles, Refiner, cubic::Between, damping_ratio,
+        elimination::LANES, modes_below, size,
+    },
 };
 
 /// Modes more damped than this are not followed: pairs close to becoming two real roots.
@@ -39,7 +40,7 @@ pub struct Branches<'m> {
     /// Room for the next state.
     spare: Option<State>,
     /// The modes at both ends of each step in which something was found.
-    steps: Vec<[Option<[Known; 2]>; LANES]>,
+    steps: Vec<[Option<[Eigenvalue; 2]>; LANES]>,
     /// Real eigenvalues that grow, none or one: then at every speed, as det K is negative.
     growing: usize,
     /// Whether they do by more than rounding.
@@ -95,7 +96,7 @@ impl<'m> Branches<'m> {
 
     /// The modes at the end of a walk, made sure that none that is little damped there is missing:
     /// those that were not followed are followed back to the start.
-    pub fn complete(&mut self, walked: Walked, search: &mut Search) -> Option<Vec<Known>> {
+    pub fn complete(&mut self, walked: Walked, search: &mut Search) -> Option<Vec<Eigenvalue>> {
         let speed = walked.0.speed();
         let alive = walked.0.alive;
         let mut modes = self.settled(walked.0);
@@ -109,7 +110,7 @@ impl<'m> Branches<'m> {
             let mut back = self.follow(others, back, search, |_, _| false)?;
             let used = back.used();
             if used > 0 {
-                self.refiner.settle(&mut back.pairs, used, SETTLED);
+                self.refiner.converge(&mut back.pairs, used, PAIR_CONVERGED);
             }
             // Where one comes back to a mode that went all the way itself, the two were mixed up.
             let is_own = |l: usize| {
@@ -123,16 +124,17 @@ impl<'m> Branches<'m> {
         Some(modes)
     }
 
-    fn settled(&mut self, mut state: State) -> Vec<Known> {
+    fn settled(&mut self, mut state: State) -> Vec<Eigenvalue> {
         let used = state.used();
         if used > 0 {
-            self.refiner.settle(&mut state.pairs, used, SETTLED);
+            self.refiner
+                .converge(&mut state.pairs, used, PAIR_CONVERGED);
         }
-        state.living().map(|l| state.known(l)).collect()
+        state.living().map(|l| state.eigenvalue(l)).collect()
     }
 
     /// Modes at a speed that are not among some known there.
-    fn others(&mut self, known: &[Known], speed: f64) -> Option<State> {
+    fn others(&mut self, known: &[Eigenvalue], speed: f64) -> Option<State> {
         let poles = Poles::at(&self.model.forced, speed).ok()?;
         let mut values = worth_following(&poles);
         for known in known {
@@ -218,39 +220,41 @@ impl<'m> Branches<'m> {
         next.copy_from(now);
         let h = (speed / now.speed()).ln();
         for l in now.living() {
-            let known = now.known(l);
-            let before = last.filter(|last| last.alive[l]).map(|last| last.known(l));
+            let known = now.eigenvalue(l);
+            let before = last
+                .filter(|last| last.alive[l])
+                .map(|last| last.eigenvalue(l));
             let s = known.expected(h, before.as_ref());
             (next.pairs.s.re[l], next.pairs.s.im[l]) = (s.re, s.im);
         }
         next.pairs.speed = [speed; LANES];
         // What is little damped does not become unworthy in a single step.
-        let was_strong = |l: usize| damping_ratio(now.known(l).s).abs() > STRONG;
+        let was_strong = |l: usize| damping_ratio(now.eigenvalue(l).s).abs() > STRONG;
         let leaves = |state: &State| {
             let mut living = state.living();
-            living.any(|l| gone(state.known(l).s) && !was_strong(l))
+            living.any(|l| gone(state.eigenvalue(l).s) && !was_strong(l))
         };
         if leaves(&next) {
             return (next, f64::INFINITY);
         }
-        next.bury(|state, l| gone(state.known(l).s));
+        next.bury(|state, l| gone(state.eigenvalue(l).s));
         let expected = next.pairs.s;
-        self.refiner.settle(&mut next.pairs, now.used(), LOOSE);
+        self.refiner.converge(&mut next.pairs, now.used(), LOOSE);
         // A mode is itself as long as its vector is.
         let kept = |state: &State, l: usize| {
             let settled = state.pairs.change[l] < LOOSE;
-            settled && Pairs::related((&now.pairs, l), (&state.pairs, l))
+            settled && Eigenpairs::similar_shape((&now.pairs, l), (&state.pairs, l))
         };
         if leaves(&next) {
             return (next, f64::INFINITY);
         }
         next.bury(|state, l| {
             let lost = || !kept(state, l) || state.repeats(l);
-            gone(state.known(l).s) || was_strong(l) && lost()
+            gone(state.eigenvalue(l).s) || was_strong(l) && lost()
         });
         let fine = next.living().all(|l| kept(&next, l) && !next.repeats(l));
         let surprise = next.living().map(|l| {
-            let s = next.known(l).s;
+            let s = next.eigenvalue(l).s;
             let allowed = (share * damping_ratio(s).abs()).max(least);
             size(s - expected.lane(l)) / (allowed * size(s))
         });
@@ -268,13 +272,13 @@ impl<'m> Branches<'m> {
 
     /// One mode and the others at a speed near which it was found.
     fn passed(&mut self, speed: f64, one: Complex<f64>) -> Vec<Complex<f64>> {
-        let within = |[low, high]: &[Known; 2]| low.speed <= speed && speed <= high.speed;
+        let within = |[low, high]: &[Eigenvalue; 2]| low.speed <= speed && speed <= high.speed;
         let step = self
             .steps
             .iter()
             .find(|modes| modes.iter().flatten().any(within));
         let modes = step.into_iter().flatten().enumerate();
-        let lanes: Vec<(usize, [Known; 2])> =
+        let lanes: Vec<(usize, [Eigenvalue; 2])> =
             modes.filter_map(|(l, ends)| Some((l, (*ends)?))).collect();
         let Some(&first) = lanes.first() else {
             return vec![one];
@@ -288,7 +292,7 @@ impl<'m> Branches<'m> {
             (pairs.s.re[l], pairs.s.im[l]) = (s.re, s.im);
         }
         pairs.speed = [speed; LANES];
-        self.refiner.settle(&mut pairs, LANES, SETTLED);
+        self.refiner.converge(&mut pairs, LANES, PAIR_CONVERGED);
         let mut modes = vec![one];
         for s in lanes.into_iter().map(|(l, _)| pairs.s.lane(l)) {
             let is_new = |known: &Complex<f64>| size(*known - s) > SAME * size(s);
@@ -300,7 +304,7 @@ impl<'m> Branches<'m> {
     }
 
     /// Whether some modes are all that are little damped at a speed.
-    fn all(&mut self, modes: &[Known], speed: f64) -> bool {
+    fn all(&mut self, modes: &[Eigenvalue], speed: f64) -> bool {
         let values: Vec<Complex<f64>> = modes.iter().map(|known| known.s).collect();
         let mut ratios: Vec<f64> = values.iter().map(|s| damping_ratio(*s)).collect();
         ratios.push(COUNTED[0]);

@@ -11,11 +11,9 @@ use super::{
     spectrum::{Spectrum, sweep},
 };
 use crate::{
-    dynamics::{EigenError, LateralModel},
-    evaluate::{
-        critical_speed::{Crossing, Stability},
-        mode::damping_ratio,
-    },
+    dynamics::LateralModel,
+    evaluate::critical_speed::{Crossing, Stability},
+    numerics::{EigenError, damping_ratio},
 };
 
 /// Speeds in the search grid.

@@ -4,12 +4,12 @@ use nalgebra::Complex;
 
 use super::spectrum::{Spectrum, sweep};
 use crate::{
-    dynamics::{EigenError, LateralModel},
+    dynamics::LateralModel,
     evaluate::{
         damping_range::{DampingMinimum, DampingRange, Place},
         lateral_modes::OVERDAMPED,
-        mode::{damping_ratio, frequency},
     },
+    numerics::{EigenError, damping_ratio, frequency},
 };
 
 /// Distance from an end of the range, as a share of the speed, at which its slope is looked up.

@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use crate::{dynamics::LinearSystem, evaluate::mode::Mode};
+use crate::{evaluate::mode::Mode, numerics::LinearSystem};
 
 /// A purely imaginary eigenvalue iω at speed V.
 #[derive(Debug, Clone)]

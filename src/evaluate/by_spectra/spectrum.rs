@@ -3,8 +3,9 @@
 use nalgebra::Complex;
 
 use crate::{
-    dynamics::{EigenError, LateralModel, Poles},
-    evaluate::{lateral_modes::OVERDAMPED, mode::damping_ratio},
+    dynamics::LateralModel,
+    evaluate::lateral_modes::OVERDAMPED,
+    numerics::{EigenError, Poles, damping_ratio},
 };
 
 /// Oscillatory eigenvalues at one speed.

@@ -3,8 +3,9 @@
 use nalgebra::Complex;
 
 use crate::{
-    dynamics::{ForcedTangent, LinearSystem},
+    dynamics::ForcedTangent,
     evaluate::{critical_speed::Crossing, mode::Mode},
+    numerics::LinearSystem,
 };
 
 /// wᴴ D′ v with D′ = 2 s M + C(V).

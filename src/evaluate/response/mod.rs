@@ -14,12 +14,10 @@ use std::{f64::consts::TAU, ops::Range};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::{
-    dynamics::{
-        ForcedModel, ForcedTangent,
-        elimination::{
-            ALL, Factors, LANES, Lanes, Reals, Stiffness,
-            lanes::{mul, mul_add},
-        },
+    dynamics::{ForcedModel, ForcedTangent},
+    numerics::elimination::{
+        ALL, Factors, LANES, Lanes, Reals, Stiffness,
+        lanes::{mul, mul_add},
     },
     track::Track,
 };

@@ -4,11 +4,14 @@ use std::ops::Range;
 
 use pulp::Simd;
 
-use crate::dynamics::{
-    Excitation, ForcedModel, LinearSystem, Output, Row, SystemTangent,
-    elimination::{
-        LANES, Lanes, Reals,
-        lanes::{mul, neg},
+use crate::{
+    dynamics::{Excitation, ForcedModel, Output, Row, SystemTangent},
+    numerics::{
+        LinearSystem,
+        elimination::{
+            LANES, Lanes, Reals,
+            lanes::{mul, neg},
+        },
     },
 };
 

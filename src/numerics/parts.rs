@@ -1,9 +1,9 @@
-//! A system in parts: their eigenvalues cost a fraction of those of the whole, as the cube of their size.
+//! Decomposition of a system into parts. Eigenvalues cost the cube of the order, so parts are cheaper.
 //!
-//! Sums and differences of coordinates that mirror each other are moved by different forces: the
-//! vertical model falls apart into bounce, pitch, roll and torsion. The lateral model's trucks are alike
-//! but do not mirror each other, as all go the same way: there the parts are one truck and the carbody,
-//! each with the other held, and their eigenvalues are estimates.
+//! In a symmetric system the sums and the differences of mirrored coordinates are decoupled: the
+//! eigenvalues of the parts are those of the whole. A system with two parts of one shape that do not
+//! mirror each other is not decoupled: the eigenvalues of one part and of the rest, each with the other
+//! held, are estimates.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -11,14 +11,15 @@ use nalgebra::DMatrix;
 
 use super::LinearSystem;
 
-/// Entries of this share of their diagonals' geometric mean are rounding.
-const ROUNDING: f64 = 1e-13;
+/// Size of a coupling entry, as a share of the geometric mean of its two diagonal entries, below which
+/// it is rounding.
+const DECOUPLED: f64 = 1e-13;
 
-/// Matrices of the first-order form of the parts of a system at speed `v`, m/s: one if it has no
+/// First-order matrices of the decoupled parts of a system at speed `v`, m/s: one if it has no
 /// symmetry. Together they have the eigenvalues of [`LinearSystem::state_matrix`].
-pub(super) fn state_matrices(system: &LinearSystem, v: f64) -> Vec<DMatrix<f64>> {
-    let alike = |[i, j]: &[usize; 2]| system.mass[*i].to_bits() == system.mass[*j].to_bits();
-    if system.mirrored.is_empty() || !system.mirrored.iter().all(alike) {
+pub fn state_matrices(system: &LinearSystem, v: f64) -> Vec<DMatrix<f64>> {
+    let equal_mass = |[i, j]: &[usize; 2]| system.mass[*i].to_bits() == system.mass[*j].to_bits();
+    if system.mirrored.is_empty() || !system.mirrored.iter().all(equal_mass) {
         return vec![system.state_matrix(v)];
     }
     let n = system.order();
@@ -32,7 +33,7 @@ pub(super) fn state_matrices(system: &LinearSystem, v: f64) -> Vec<DMatrix<f64>>
         for i in 0..n {
             for j in (0..n).filter(|&j| j != i) {
                 let size = (diagonal[i] * diagonal[j]).abs().sqrt();
-                if matrix[(i, j)].abs() < ROUNDING * size {
+                if matrix[(i, j)].abs() < DECOUPLED * size {
                     matrix[(i, j)] = 0.0;
                 }
             }
@@ -52,15 +53,14 @@ pub(super) fn state_matrices(system: &LinearSystem, v: f64) -> Vec<DMatrix<f64>>
             part.extend(rest.extract_if(.., |j| tied(j)));
             next += 1;
         }
-        matrices.push(alone(system, [&k, &c], &part).state_matrix(v));
+        matrices.push(held(system, [&k, &c], &part).state_matrix(v));
     }
     matrices
 }
 
-/// Matrices of the first-order form, at speed `v`, m/s, of one of the two parts of a system that are
-/// alike, and of the coordinates that belong to neither, each with all others held. `None` if none are
-/// alike.
-pub(super) fn held_apart(system: &LinearSystem, v: f64) -> Option<[DMatrix<f64>; 2]> {
+/// First-order matrices, at speed `v`, m/s, of one of two parts of one shape, and of the coordinates
+/// that belong to neither, each with all other coordinates held. `None` if there are no such parts.
+pub fn held_apart(system: &LinearSystem, v: f64) -> Option<[DMatrix<f64>; 2]> {
     if system.alike.is_empty() {
         return None;
     }
@@ -68,35 +68,35 @@ pub(super) fn held_apart(system: &LinearSystem, v: f64) -> Option<[DMatrix<f64>;
     let of_neither = |i: &usize| !system.alike.iter().flatten().any(|other| other == i);
     let rest: Vec<usize> = (0..system.order()).filter(of_neither).collect();
     let c = system.damping_at(v);
-    let matrix = |part: Vec<usize>| alone(system, [&system.stiffness, &c], &part).state_matrix(v);
+    let matrix = |part: Vec<usize>| held(system, [&system.stiffness, &c], &part).state_matrix(v);
     Some([one, rest].map(matrix))
 }
 
-/// The first of the two parts of a system that are alike, with all other coordinates held, at speed `v`,
-/// m/s: its coordinates' numbers in the system, and its own equations, whose damping is that at `v`
-/// whatever the speed. The whole system if no parts are alike.
-pub(super) fn one_alike(system: &LinearSystem, v: f64) -> (Vec<usize>, LinearSystem) {
+/// The first of two parts of one shape, with all other coordinates held, at speed `v`, m/s: its
+/// coordinates' numbers in the system, and its equations, whose damping is constant at its value for
+/// `v`. The whole system if there are no such parts.
+pub fn one_alike(system: &LinearSystem, v: f64) -> (Vec<usize>, LinearSystem) {
     let one: Vec<usize> = if system.alike.is_empty() {
         (0..system.order()).collect()
     } else {
         system.alike.iter().map(|pair| pair[0]).collect()
     };
-    let held = alone(system, [&system.stiffness, &system.damping_at(v)], &one);
-    (one, held)
+    let part = held(system, [&system.stiffness, &system.damping_at(v)], &one);
+    (one, part)
 }
 
-/// Some coordinates of a system with stiffness `k` and damping `c`, all others held.
-fn alone(system: &LinearSystem, [k, c]: [&DMatrix<f64>; 2], part: &[usize]) -> LinearSystem {
+/// System of some coordinates, with stiffness `k` and damping `c`, all other coordinates held.
+fn held(system: &LinearSystem, [k, c]: [&DMatrix<f64>; 2], part: &[usize]) -> LinearSystem {
     let of = |matrix: &DMatrix<f64>| {
         DMatrix::from_fn(part.len(), part.len(), |i, j| matrix[(part[i], part[j])])
     };
-    let mut alone = LinearSystem::new(part.iter().map(|&i| system.mass[i]).collect(), 0);
-    alone.stiffness = of(k);
-    alone.damping[0] = of(c);
-    alone
+    let mut held = LinearSystem::new(part.iter().map(|&i| system.mass[i]).collect(), 0);
+    held.stiffness = of(k);
+    held.damping[0] = of(c);
+    held
 }
 
-/// Puts the sum and the difference of two coordinates in their places, both over √2.
+/// Replaces two coordinates by their sum and their difference, both over √2.
 fn turn(matrix: &mut DMatrix<f64>, [i, j]: [usize; 2]) {
     for l in 0..matrix.nrows() {
         let (a, b) = (matrix[(i, l)], matrix[(j, l)]);

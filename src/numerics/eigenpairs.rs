@@ -1,46 +1,26 @@
-//! Eigenvalues with right and left vectors, several side by side.
+//! Refinement of eigenpairs by Rayleigh quotient iteration, several side by side.
 
 use nalgebra::{Complex, DVector};
 use pulp::{Arch, Simd, WithSimd};
 
-use super::elimination::{
-    ALL, Factors, LANES, Lanes, Reals, Stiffness,
-    lanes::{add, div, sqrt},
+use super::{
+    Eigenvalue,
+    elimination::{
+        ALL, Factors, LANES, Lanes, Reals, Stiffness,
+        lanes::{add, div, sqrt},
+    },
 };
-
-/// An eigenvalue and its slope at a speed.
-#[derive(Debug, Clone, Copy)]
-pub struct Known {
-    /// V, m/s.
-    pub speed: f64,
-    /// s, rad/s.
-    pub s: Complex<f64>,
-    /// ds/d ln V.
-    pub slope: Complex<f64>,
-}
-
-impl Known {
-    /// Where s is expected at h further in ln V, from here and, if it is known, from `before`. In
-    /// ln s: at low speed the kinematic modes go with V itself.
-    pub fn expected(&self, h: f64, before: Option<&Self>) -> Complex<f64> {
-        let rate = self.slope / self.s;
-        let bend = before.map_or(Complex::ZERO, |before| {
-            (rate - before.slope / before.s) / (self.speed / before.speed).ln()
-        });
-        self.s * (rate * h + bend * (h * h / 2.0)).exp()
-    }
-}
 
 /// [`LANES`] eigenpairs D(s) x = 0, yᵀ D(s) = 0, each at a speed of its own.
 #[derive(Debug, Clone)]
-pub struct Pairs {
+pub struct Eigenpairs {
     /// s, rad/s.
     pub s: Lanes,
     /// V, m/s.
     pub speed: Reals,
     /// ds/d ln V.
     pub slope: Lanes,
-    /// Change of s in the last step, relative.
+    /// Relative change of s in the last step.
     pub change: Reals,
     x: Vec<Lanes>,
     y: Vec<Lanes>,
@@ -49,10 +29,10 @@ pub struct Pairs {
     dy: Vec<Lanes>,
 }
 
-impl Pairs {
-    /// Estimates of eigenvalues without vectors.
+impl Eigenpairs {
+    /// Pairs from estimates of eigenvalues, with arbitrary vectors.
     pub fn near(s: Lanes, speed: Reals, order: usize) -> Self {
-        // Any start that is in no coordinate plane.
+        // A start vector in no coordinate plane.
         let start: Vec<Lanes> = (0..order)
             .map(|i| Lanes::from_fn(|_| Complex::new(1.0, 0.3 + 0.1 * i as f64)))
             .collect();
@@ -68,7 +48,7 @@ impl Pairs {
         }
     }
 
-    /// Takes what another holds, in the room that is there.
+    /// Copies another set of eigenpairs without allocation.
     pub fn copy_from(&mut self, other: &Self) {
         self.s = other.s;
         self.speed = other.speed;
@@ -80,7 +60,7 @@ impl Pairs {
         self.dy.copy_from_slice(&other.dy);
     }
 
-    /// Takes the pair in lane `from` of others into lane `to`.
+    /// Copies the pair in lane `from` of `others` to lane `to`.
     pub fn take(&mut self, to: usize, others: &Self, from: usize) {
         let copy = |into: &mut [Lanes], of: &[Lanes]| {
             for (into, of) in into.iter_mut().zip(of) {
@@ -98,7 +78,7 @@ impl Pairs {
         self.speed[to] = others.speed[from];
     }
 
-    /// Repeats the pair in lane `other` in lane `l`.
+    /// Copies the pair in lane `other` to lane `l`.
     pub fn repeat(&mut self, l: usize, other: usize) {
         let vectors = [&mut self.x, &mut self.y, &mut self.dx, &mut self.dy];
         let values = vectors.into_iter().flatten();
@@ -109,15 +89,14 @@ impl Pairs {
         self.change[l] = self.change[other];
     }
 
-    /// Whether the right vectors of two pairs are nearly the same.
-    pub fn alike(a: (&Self, usize), b: (&Self, usize)) -> bool {
-        Self::overlap(a, b) > ALIKE * ALIKE
+    /// True if the right vectors of two pairs are the same but for small errors.
+    pub fn same_shape(a: (&Self, usize), b: (&Self, usize)) -> bool {
+        Self::overlap(a, b) > SAME_SHAPE * SAME_SHAPE
     }
 
-    /// Whether the right vector of one pair can have become that of another on the way from a speed
-    /// to the next.
-    pub fn related(a: (&Self, usize), b: (&Self, usize)) -> bool {
-        Self::overlap(a, b) > RELATED * RELATED
+    /// True if the right vectors of two pairs overlap enough to be one mode's at two neighbouring speeds.
+    pub fn similar_shape(a: (&Self, usize), b: (&Self, usize)) -> bool {
+        Self::overlap(a, b) > SIMILAR_SHAPE * SIMILAR_SHAPE
     }
 
     /// |x̄ᵀ x′|² of right vectors, which are of length one.
@@ -128,8 +107,8 @@ impl Pairs {
     }
 
     /// The eigenvalue in lane `l`.
-    pub fn known(&self, l: usize) -> Known {
-        Known {
+    pub fn eigenvalue(&self, l: usize) -> Eigenvalue {
+        Eigenvalue {
             speed: self.speed[l],
             s: self.s.lane(l),
             slope: self.slope.lane(l),
@@ -142,7 +121,7 @@ impl Pairs {
     }
 }
 
-/// Refines eigenpairs of a system.
+/// Two-sided Rayleigh quotient iteration on the eigenpairs of a system.
 pub struct Refiner<'m> {
     stiffness: &'m Stiffness,
     factors: Factors,
@@ -150,19 +129,19 @@ pub struct Refiner<'m> {
     arch: Arch,
 }
 
-/// Relative change of s below which the next step would change nothing: its error falls with the
-/// cube of the one before.
-pub const SETTLED: f64 = 1e-6;
-/// |x̄ᵀ x′| above which two vectors of length one are nearly the same.
-const ALIKE: f64 = 0.98;
-/// And above which they have something in common: those of different modes are nearly orthogonal
-/// where these are not about to meet.
-const RELATED: f64 = 0.8;
-/// Steps allowed.
-const STEPS: usize = 6;
+/// Convergence tolerance: relative change of s in a step whose successor is at rounding level, because
+/// the error falls with its third power.
+pub const PAIR_CONVERGED: f64 = 1e-6;
+/// Least overlap |x̄ᵀ x′| of two unit vectors of the same mode.
+const SAME_SHAPE: f64 = 0.98;
+/// Least overlap of a mode's unit vectors at two neighbouring speeds. Vectors of different modes are
+/// nearly orthogonal unless their eigenvalues are about to meet.
+const SIMILAR_SHAPE: f64 = 0.8;
+/// Limit on Rayleigh quotient steps.
+const MAX_STEPS: usize = 6;
 
 impl<'m> Refiner<'m> {
-    /// Of a system with this stiffness.
+    /// For a system with this dynamic stiffness.
     pub fn new(stiffness: &'m Stiffness) -> Self {
         Self {
             factors: stiffness.factors(),
@@ -177,19 +156,19 @@ impl<'m> Refiner<'m> {
         self.stiffness.order()
     }
 
-    /// The stiffness and room for its factors.
+    /// Dynamic stiffness, work space for its factors, vector unit.
     pub fn parts(&mut self) -> (&Stiffness, &mut Factors, Arch) {
         (self.stiffness, &mut self.factors, self.arch)
     }
 
-    /// Steps until s in all lanes below `used` changes by less than `settled`, relative; whether
-    /// it does.
-    pub fn settle(&mut self, pairs: &mut Pairs, used: usize, settled: f64) -> bool {
-        for _ in 0..STEPS {
+    /// Iterates until the relative change of s in each of the first `used` lanes is below `tolerance`.
+    /// Returns false if it is not within the limit of steps.
+    pub fn converge(&mut self, pairs: &mut Eigenpairs, used: usize, tolerance: f64) -> bool {
+        for _ in 0..MAX_STEPS {
             self.step(pairs);
             let changes = &pairs.change[..used];
-            // NaN counts as not settled.
-            if changes.iter().all(|change| *change < settled) {
+            // NaN counts as not converged.
+            if changes.iter().all(|change| *change < tolerance) {
                 return true;
             }
         }
@@ -202,7 +181,7 @@ impl<'m> Refiner<'m> {
     /// ```math
     /// D(s) x⁺ = D′ x,   D(s)ᵀ y⁺ = D′ᵀ y,   s⁺ = s − y⁺ᵀ D x⁺ / (y⁺ᵀ D′ x⁺)
     /// ```
-    pub fn step(&mut self, pairs: &mut Pairs) {
+    pub fn step(&mut self, pairs: &mut Eigenpairs) {
         let arch = self.arch;
         arch.dispatch(Step {
             refiner: self,
@@ -213,7 +192,7 @@ impl<'m> Refiner<'m> {
 
 struct Step<'r, 'm> {
     refiner: &'r mut Refiner<'m>,
-    pairs: &'r mut Pairs,
+    pairs: &'r mut Eigenpairs,
 }
 
 impl WithSimd for Step<'_, '_> {
@@ -228,7 +207,7 @@ impl WithSimd for Step<'_, '_> {
             residual,
             ..
         } = self.refiner;
-        let Pairs {
+        let Eigenpairs {
             s,
             speed,
             slope,

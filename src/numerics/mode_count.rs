@@ -1,51 +1,51 @@
-//! How many modes are less damped than a given ratio, by the argument principle.
+//! Mode count by the argument principle: eigenvalues less damped than a given ratio.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::Complex;
 use pulp::{Simd, WithSimd};
 
-use crate::{
-    dynamics::{
-        Refiner,
-        elimination::{
-            Factors, LANES, Lanes, Reals, Stiffness,
-            lanes::{abs, add, div, mul, neg},
-        },
+use super::{
+    Refiner, damping_ratio,
+    elimination::{
+        Factors, LANES, Lanes, Reals, Stiffness,
+        lanes::{abs, add, div, mul, neg},
     },
-    evaluate::mode::{damping_ratio, size},
+    size,
 };
 
-/// Steps of ln |s|: among the modes known, above them where the creep forces' fast decay is, and
-/// where nothing is expected.
-const FINE: f64 = 0.15;
-const MIDDLE: f64 = 0.2;
-const COARSE: f64 = 0.4;
-/// Shares of these steps that are tried. The second time steps are at most a share of the distance to
-/// the nearest mode known, but for the least: there may be another like it.
-const CARE: [(f64, f64); 2] = [(1.0, f64::INFINITY), (0.3, 0.15)];
-const SMALLEST: f64 = 3e-6;
-/// Range of |s| that counts as among the modes, as a factor beyond theirs.
-const MARGIN: f64 = 2.0;
-/// Where the walk ends, as a multiple of the fastest decay: what directions there are lies within a
-/// few hundredths of a turn of that at infinity.
-const FAR: f64 = 100.0;
-/// Start as a share of the lowest |s| of the modes.
-const START: f64 = 1e-3;
-/// Change of direction from one step to the next above which the walk may have missed a turn, rad.
-const SHARP: f64 = 2.4;
-/// Distance of the count from a whole number that is put down to the end of the walk.
-const UNSURE: f64 = 0.15;
+/// Step of ln |s| among the known modes.
+const FINE_STEP: f64 = 0.15;
+/// Step of ln |s| above them, up to the fastest decay.
+const MIDDLE_STEP: f64 = 0.2;
+/// Step of ln |s| below and beyond, where no eigenvalue is expected.
+const COARSE_STEP: f64 = 0.4;
+/// Two attempts: factor on the steps, and bound on a step as a share of the distance to the nearest
+/// known mode. The second attempt resolves an unknown mode beside a known one.
+const ATTEMPTS: [(f64, f64); 2] = [(1.0, f64::INFINITY), (0.3, 0.15)];
+/// Least step of ln |s|, whatever the distance to the nearest known mode.
+const LEAST_STEP: f64 = 3e-6;
+/// Factor in |s| below and above the known modes within which steps are fine.
+const FINE_MARGIN: f64 = 2.0;
+/// End of the path as a multiple of the fastest decay: det D has there its direction at infinity to a
+/// few hundredths of a turn.
+const PATH_END: f64 = 100.0;
+/// Start of the path as a share of the lowest |s| of the known modes.
+const PATH_START: f64 = 1e-3;
+/// Largest turn of det D in one step, rad; a larger one may hide a whole turn.
+const LARGEST_TURN: f64 = 2.4;
+/// Largest distance of the count from a half or whole number: the error of ending the path.
+const COUNT_ERROR: f64 = 0.15;
 
-/// Number of eigenvalues in the upper half plane with damping ratios below `zeta` at `speed`, m/s,
-/// those on the positive real axis counted half. `None` if the count is inconclusive.
+/// Number of eigenvalues in the upper half plane with damping ratios below `zeta` at `speed`, m/s; an
+/// eigenvalue on the positive real axis counts half. `None` if the count is inconclusive.
 ///
 /// ```math
 /// Along s = r e^{iθ}, θ = π/2 + asin ζ:   Δarg det D(s) = 2 n θ − 2π N
 /// ```
 ///
-/// det D is divided by the factors of the modes `known`, which are counted by themselves: what is
-/// left turns slowly. If they are not quite right, or some are missing, that only takes more steps.
+/// det D is divided by the factors of the `known` modes, which are counted directly; the quotient turns
+/// slowly. Errors in the known modes, or missing ones, cost steps but not accuracy.
 pub fn modes_below(
     refiner: &mut Refiner,
     speed: f64,
@@ -53,13 +53,13 @@ pub fn modes_below(
     known: &[Complex<f64>],
 ) -> Option<f64> {
     let below = known.iter().filter(|s| damping_ratio(**s) < zeta).count();
-    let carefully = |care| walk(refiner, speed, zeta, known, care);
-    let others = CARE.into_iter().find_map(carefully)?;
+    let attempt = |steps| count_others(refiner, speed, zeta, known, steps);
+    let others = ATTEMPTS.into_iter().find_map(attempt)?;
     Some(others + below as f64)
 }
 
-/// Number of those that are not known.
-fn walk(
+/// Number of such eigenvalues besides the known ones; `None` if the count is inconclusive.
+fn count_others(
     refiner: &mut Refiner,
     speed: f64,
     zeta: f64,
@@ -77,12 +77,12 @@ fn walk(
     let high = sizes.fold(low, f64::max);
     let top = fastest.max(high);
     let step = |at: f64| {
-        let widest = if at < low - MARGIN.ln() || at > top + MARGIN.ln() {
-            COARSE
-        } else if at > high + MARGIN.ln() {
-            MIDDLE
+        let widest = if at < low - FINE_MARGIN.ln() || at > top + FINE_MARGIN.ln() {
+            COARSE_STEP
+        } else if at > high + FINE_MARGIN.ln() {
+            MIDDLE_STEP
         } else {
-            FINE
+            FINE_STEP
         };
         let widest = share * widest;
         if of_distance.is_infinite() {
@@ -92,16 +92,16 @@ fn walk(
             .iter()
             .map(|(size, direction)| (size - at).hypot(direction - angle));
         let near = apart.fold(f64::INFINITY, f64::min);
-        (of_distance * near).clamp(SMALLEST, widest)
+        (of_distance * near).clamp(LEAST_STEP, widest)
     };
     // ln |s|
-    let mut at = low + START.ln();
-    let mut walk = Walk {
+    let mut at = low + PATH_START.ln();
+    let mut path = Path {
         turned: 0.0,
         last: None,
         sure: true,
     };
-    while at < top + FAR.ln() && walk.sure {
+    while at < top + PATH_END.ln() && path.sure {
         let mut radii = [0.0; LANES];
         for radius in &mut radii {
             *radius = at.exp();
@@ -113,20 +113,23 @@ fn walk(
             radii,
             direction: (angle.cos(), angle.sin()),
             known,
-            walk: &mut walk,
+            path: &mut path,
         });
     }
     let degree = 2.0 * (order as f64 - known.len() as f64);
-    let count = (degree * angle - walk.turned) / TAU;
+    let count = (degree * angle - path.turned) / TAU;
     // A positive real eigenvalue counts half.
     let whole = (2.0 * count).round() / 2.0;
-    (walk.sure && (count - whole).abs() < UNSURE).then_some(whole)
+    (path.sure && (count - whole).abs() < COUNT_ERROR).then_some(whole)
 }
 
-/// A walk along the ray: how far what is left of det D has turned.
-struct Walk {
+/// Progress along the ray.
+struct Path {
+    /// Turn of the quotient so far, rad.
     turned: f64,
+    /// Its last value, scaled.
     last: Option<(f64, f64)>,
+    /// False once a step turned too far or an elimination lost digits.
     sure: bool,
 }
 
@@ -136,7 +139,7 @@ struct Steps<'r> {
     radii: Reals,
     direction: (f64, f64),
     known: &'r [Complex<f64>],
-    walk: &'r mut Walk,
+    path: &'r mut Path,
 }
 
 impl WithSimd for Steps<'_> {
@@ -166,19 +169,19 @@ impl WithSimd for Steps<'_> {
         }
         for l in 0..LANES {
             let (re, im) = (left.re[l], left.im[l]);
-            let turn = match self.walk.last {
+            let turn = match self.path.last {
                 Some((a, b)) => (im * a - re * b).atan2(re * a + im * b),
                 // At s = 0 it is real.
                 None => nearest_real(im.atan2(re)),
             };
-            self.walk.sure &= turn.abs() < SHARP && self.factors.sound[l];
-            self.walk.turned += turn;
-            self.walk.last = Some((re, im));
+            self.path.sure &= turn.abs() < LARGEST_TURN && self.factors.sound[l];
+            self.path.turned += turn;
+            self.path.last = Some((re, im));
         }
     }
 }
 
-/// Angle from the nearer half of the real axis.
+/// Angle from the nearer half of the real axis, rad.
 fn nearest_real(angle: f64) -> f64 {
     angle - PI * (angle / PI).round()
 }

@@ -6,7 +6,7 @@ use super::{
     lanes::{LANES, Lanes, Reals, div, mul, mul_add},
     pattern::Pattern,
 };
-use crate::dynamics::LinearSystem;
+use crate::numerics::LinearSystem;
 
 /// D(s) = s² M + s C(V) + K of the coordinates of a system.
 #[derive(Debug, Clone)]

@@ -1,25 +1,23 @@
-//! All eigenvalues at once, from estimates of them.
+//! Börsch-Supan corrections: all eigenvalues at once, from estimates of them.
 
 use nalgebra::Complex;
 use pulp::{Arch, Simd, WithSimd};
 
-use super::{
-    ForcedModel,
-    elimination::{Factors, LANES, Lanes, Stiffness},
-};
+use super::elimination::{Factors, LANES, Lanes, Stiffness};
 
-/// Iterations allowed; three are usual.
-const ITERATIONS: usize = 12;
-/// What the last correction may leave, as a share of the eigenvalue.
-const LEFT: f64 = 1e-14;
-/// Corrections of two eigenvalues above this share of their distance are found together.
-const TOGETHER: f64 = 0.02;
-/// Least distance of two estimates, as a share of their size: what divides the corrections stays
-/// well above rounding.
-const SPACING: f64 = 1e-10;
+/// Limit on the iterations; three are usual.
+const MAX_ITERATIONS: usize = 12;
+/// Residual after the last correction, as a share of the eigenvalue: rounding level.
+const RESIDUAL: f64 = 1e-14;
+/// Sum of two eigenvalues' corrections, as a share of their distance, above which both are corrected
+/// jointly.
+const JOINT_SHARE: f64 = 0.02;
+/// Least distance of two estimates, as a share of their size: divisors of the corrections stay well
+/// above rounding.
+const LEAST_SPACING: f64 = 1e-10;
 
-/// Eigenvalues of a system with mass everywhere at `speed`, m/s, from estimates of all of them. `None`
-/// if they do not settle, or if there is not one in each of as many discs that do not overlap.
+/// Eigenvalues at `speed`, m/s, from estimates of all of them, for a system whose coordinates all have
+/// mass. `None` if the iteration does not converge, or if the error discs below overlap.
 ///
 /// ```math
 /// Wⱼ = det D(zⱼ)/(det M · Π_{k≠j} (zⱼ − zₖ)),   zⱼ⁺ = zⱼ − Wⱼ/(1 + Σ_{k≠j} Wₖ/(zⱼ − zₖ))
@@ -27,27 +25,26 @@ const SPACING: f64 = 1e-10;
 ///
 /// W. Börsch-Supan, *Residuenabschätzung für Polynom-Nullstellen mittels Lagrange-Interpolation*,
 /// Numer. Math. 14 (1970): corrections fall with the third power of those before. The discs about zⱼ
-/// with radius N |Wⱼ|, N the number of eigenvalues, hold all of these, and one each where they are
-/// apart (B. T. Smith, *Error bounds for zeros of a polynomial based upon Gerschgorin's theorems*,
+/// with radius N |Wⱼ|, N the number of eigenvalues, together hold all eigenvalues, and a disc that
+/// overlaps no other holds exactly one (B. T. Smith, *Error bounds for zeros of a polynomial based upon Gerschgorin's theorems*,
 /// J. ACM 17, 1970).
 ///
-/// The eigenvalues are the roots of 1 + Σ Wₖ/(z − zₖ), which the correction solves with all terms but
-/// the nearest taken at zⱼ. Where two are close, it keeps the terms of both: of a quadratic, real ones
-/// come out as a complex pair where they have become one, and twins, such as those of two trucks, as
-/// fast as others.
+/// The eigenvalues are the roots of 1 + Σ Wₖ/(z − zₖ). The correction of zⱼ solves this equation with
+/// the terms k ≠ j held at zⱼ. For two close estimates it keeps both terms and solves a quadratic: a
+/// real pair can then become a complex one, and nearly equal eigenvalues converge as fast as others.
 pub(super) fn refined(
-    model: &ForcedModel,
+    stiffness: &Stiffness,
+    masses: &[f64],
     speed: f64,
     estimates: &[Complex<f64>],
 ) -> Option<Vec<Complex<f64>>> {
-    let (stiffness, masses) = (model.stiffness(), &model.system.mass);
     let mut factors = stiffness.factors();
     stiffness.set_speed(speed, &mut factors);
     let upper = estimates.iter().copied().filter(|z| z.im >= 0.0);
     let mut roots = Roots::default();
     roots.set(upper.collect());
     let arch = Arch::new();
-    for _ in 0..ITERATIONS {
+    for _ in 0..MAX_ITERATIONS {
         if roots.all.len() != 2 * masses.len() {
             return None;
         }
@@ -58,13 +55,13 @@ pub(super) fn refined(
             roots: &mut roots,
         });
         roots.find_neighbours();
-        let settled = roots.settled();
-        if settled && !roots.apart() {
+        let converged = roots.converged();
+        if converged && !roots.apart() {
             return None;
         }
         arch.dispatch(Sums(&mut roots));
         let corrected = roots.corrected()?;
-        if settled {
+        if converged {
             let conjugates = corrected.iter().filter(|z| z.im > 0.0).map(Complex::conj);
             return Some(corrected.iter().copied().chain(conjugates).collect());
         }
@@ -73,36 +70,36 @@ pub(super) fn refined(
     None
 }
 
-/// Estimates, and what is known of them.
+/// Estimates with their corrections and neighbours.
 #[derive(Default)]
 struct Roots {
-    /// All of them.
+    /// All estimates.
     all: Vec<Complex<f64>>,
-    /// W of all.
+    /// W of each.
     corrections: Vec<Complex<f64>>,
-    /// Real ones and those in the upper half plane, each of which its conjugate follows in `all`.
+    /// Real estimates and those in the upper half plane; a conjugate follows its partner in `all`.
     upper: Vec<Upper>,
 }
 
-/// One that is real or in the upper half plane.
+/// An estimate that is real or in the upper half plane.
 #[derive(Clone, Copy)]
 struct Upper {
-    /// Where it is among all.
+    /// Index among all.
     place: usize,
-    /// Where the one nearest to it is, and its distance and that of the second nearest.
+    /// Index of the nearest other estimate, and the distances of the nearest and second nearest.
     nearest: usize,
     distances: [f64; 2],
-    /// The one that it is corrected together with.
+    /// Index of the estimate with which it is corrected jointly.
     partner: Option<usize>,
-    /// 1 + Σ Wₖ/(z − zₖ) over all but these, at zⱼ or in the middle between both.
+    /// 1 + Σ Wₖ/(z − zₖ) without its own and its partner's term, at zⱼ or midway between the two.
     sum: Complex<f64>,
 }
 
 impl Roots {
-    /// Takes real estimates and those in the upper half plane.
+    /// Replaces the estimates by real ones and ones in the upper half plane.
     fn set(&mut self, mut upper: Vec<Complex<f64>>) {
         for j in 0..upper.len() {
-            let least = SPACING * upper[j].norm_sqr().sqrt();
+            let least = LEAST_SPACING * upper[j].norm_sqr().sqrt();
             if upper[j].im > 0.0 {
                 upper[j].im = upper[j].im.max(least);
             }
@@ -131,7 +128,7 @@ impl Roots {
         self.corrections.resize(self.all.len(), Complex::ZERO);
     }
 
-    /// Finds who is near whom, and who is to be corrected together.
+    /// Finds the nearest neighbours, and the pairs to be corrected jointly.
     fn find_neighbours(&mut self) {
         for one in &mut self.upper {
             let mut least = [(one.place, f64::INFINITY); 2];
@@ -158,23 +155,22 @@ impl Roots {
             let of_place = self.upper.binary_search_by_key(&k, |other| other.place);
             let size = |k: usize| self.corrections[k].norm_sqr().sqrt();
             let together = (is_conjugate || of_place.is_ok_and(mutual))
-                && size(j) + size(k) > TOGETHER * one.distances[0];
+                && size(j) + size(k) > JOINT_SHARE * one.distances[0];
             self.upper[i].partner = together.then_some(k);
         }
     }
 
-    /// Whether what the corrections leave is nothing.
-    fn settled(&self) -> bool {
+    /// True if the residual is at rounding level.
+    fn converged(&self) -> bool {
         self.upper.iter().all(|one| {
             let apart = one.distances[usize::from(one.partner.is_some())];
             let w = self.corrections[one.place].norm_sqr();
             let share = w / (apart * apart);
-            w * share * share < LEFT * LEFT * self.all[one.place].norm_sqr()
+            w * share * share < RESIDUAL * RESIDUAL * self.all[one.place].norm_sqr()
         })
     }
 
-    /// Whether the discs that hold one eigenvalue each do not overlap, but for two that are corrected
-    /// together.
+    /// True if no two error discs overlap, but for pairs corrected jointly.
     fn apart(&self) -> bool {
         let count = self.all.len() as f64;
         let radius = |k: usize| count * self.corrections[k].norm_sqr().sqrt();
@@ -188,7 +184,7 @@ impl Roots {
         })
     }
 
-    /// Real ones and those in the upper half plane, corrected. `None` if one would leave it.
+    /// Corrected estimates with Im z ≥ 0. `None` if one of them would leave the upper half plane.
     fn corrected(&self) -> Option<Vec<Complex<f64>>> {
         let mut corrected = Vec::with_capacity(self.all.len());
         for one in &self.upper {
@@ -197,7 +193,7 @@ impl Roots {
             match one.partner {
                 None if z.im > 0.0 => corrected.push(z - w),
                 None => corrected.push((z - w).re.into()),
-                // With the other.
+                // Done with its partner.
                 Some(k) if k < j => (),
                 Some(k) => {
                     let other = (self.all[k], self.corrections[k] / one.sum);
@@ -229,7 +225,7 @@ fn together(
     [(a + b) / 2.0 - mean, square]
 }
 
-/// Computes W.
+/// Computation of the corrections W.
 struct Corrections<'r> {
     stiffness: &'r Stiffness,
     masses: &'r [f64],
@@ -277,7 +273,7 @@ impl WithSimd for Corrections<'_> {
     }
 }
 
-/// Computes the sums.
+/// Computation of the sums 1 + Σ Wₖ/(z − zₖ).
 struct Sums<'r>(&'r mut Roots);
 
 impl WithSimd for Sums<'_> {
@@ -315,7 +311,7 @@ impl WithSimd for Sums<'_> {
     }
 }
 
-/// z − one of the estimates, and one in the lanes that leave it out.
+/// z − zₖ of an estimate zₖ; 1 in the lanes `left_out`.
 #[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
 #[inline(always)]
 fn distance<S: Simd>(

@@ -2,9 +2,9 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::dynamics::elimination::{LANES, Reals, lanes::mul_add};
+use super::elimination::{LANES, Reals, lanes::mul_add};
 
-/// Points of the rule: two groups of those that are evaluated together.
+/// Points of the rule: two groups of points that are evaluated together.
 const POINTS: usize = 2 * LANES;
 
 /// Positive abscissae and weights of the 16-point Gauss–Legendre rule on [−1, 1], innermost first
@@ -20,10 +20,10 @@ const RULE: [(f64, f64); LANES] = [
     (0.989_400_934_991_649_9, 0.027_152_459_411_754_1),
 ];
 
-/// Degrees of the Legendre polynomials whose coefficients are looked at: the highest that the points
-/// can tell, an odd and an even one.
+/// Degrees of the Legendre coefficients from which the error is estimated: the two highest that the
+/// points determine, an odd and an even one.
 const DEGREES: [usize; 2] = [POINTS - 1, POINTS - 2];
-/// The integral, and the coefficients of these degrees.
+/// Weighted sums per function: the integral and the two coefficients.
 const SUMS: usize = 1 + DEGREES.len();
 
 /// Error of the integral as a share of these coefficients. Of a pole on an ellipse whose axes sum to
@@ -32,7 +32,7 @@ const SUMS: usize = 1 + DEGREES.len();
 /// ([`super::panels`]), for which that is 5e-6; this is six times as much.
 const FALL: f64 = 3e-5;
 
-/// One group of points, and what their values count in each sum.
+/// One group of points with their weights in each sum.
 #[derive(Clone, Copy)]
 struct Group {
     nodes: Reals,
@@ -89,7 +89,7 @@ impl WithSimd for Weighing<'_> {
     }
 }
 
-/// Panels allowed in all: a resonance of 1e-4 damping needs some hundred.
+/// Limit on the panels: a resonance of damping ratio 1e-4 needs about a hundred.
 const MAX_PANELS: usize = 4000;
 
 /// Integrals of several functions over adjoining bands.
@@ -98,7 +98,7 @@ pub struct Integrals {
     functions: usize,
     /// Integral of function k over band b at b·functions + k.
     bands: Vec<f64>,
-    /// Whether every function met the tolerance.
+    /// True if every function met the tolerance.
     pub converged: bool,
 }
 

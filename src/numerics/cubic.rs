@@ -1,27 +1,27 @@
-//! Cubics between two speeds.
+//! Hermite cubics between two speeds.
 
 use nalgebra::Complex;
 
-use crate::dynamics::Known;
+use super::Eigenvalue;
 
-/// A complex cubic over 0…1.
+/// A complex Hermite cubic over 0…1.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Cubic([Complex<f64>; 4]);
+pub struct Cubic([Complex<f64>; 4]);
 
 impl Cubic {
-    /// With values and slopes at both ends.
+    /// From values and slopes at both ends.
     pub fn new([a, da]: [Complex<f64>; 2], [b, db]: [Complex<f64>; 2]) -> Self {
         let change = b - a;
         Self([a, da, 3.0 * change - 2.0 * da - db, da + db - 2.0 * change])
     }
 
-    /// Value.
+    /// Value at `t`.
     pub fn value(&self, t: f64) -> Complex<f64> {
         let [c0, c1, c2, c3] = self.0;
         c0 + t * (c1 + t * (c2 + t * c3))
     }
 
-    /// Slope.
+    /// Slope at `t`.
     pub fn slope(&self, t: f64) -> Complex<f64> {
         let [_, c1, c2, c3] = self.0;
         c1 + t * (2.0 * c2 + 3.0 * t * c3)
@@ -29,19 +29,22 @@ impl Cubic {
 }
 
 /// An eigenvalue between two speeds, as a cubic in ln V with the values and slopes there.
-pub(super) struct Between {
-    /// Lower speed, m/s, and the way to the higher in ln V.
+pub struct Between {
+    /// Lower speed, m/s.
     low: f64,
+    /// Distance to the higher speed in ln V.
     length: f64,
     cubic: Cubic,
 }
 
-/// Steps in which a root is found, and the share of the way that it is found to.
-const STEPS: usize = 60;
-const FOUND: f64 = 1e-10;
+/// Limit on the steps of the secant.
+const MAX_STEPS: usize = 60;
+/// Accuracy of a root, as a share of the interval.
+const ROOT_ACCURACY: f64 = 1e-10;
 
 impl Between {
-    pub fn new(low: &Known, high: &Known) -> Self {
+    /// Of an eigenvalue at a lower and a higher speed.
+    pub fn new(low: &Eigenvalue, high: &Eigenvalue) -> Self {
         let length = (high.speed / low.speed).ln();
         let [a, b] = [low, high].map(|known| [known.s, known.slope * length]);
         Self {
@@ -51,7 +54,7 @@ impl Between {
         }
     }
 
-    /// s and ds/d ln V at a share `t` of the way.
+    /// s and ds/d ln V at a share `t` of the interval.
     fn at(&self, t: f64) -> [Complex<f64>; 2] {
         [self.cubic.value(t), self.cubic.slope(t) / self.length]
     }
@@ -61,24 +64,24 @@ impl Between {
         self.cubic.value((speed / self.low).ln() / self.length)
     }
 
-    /// All of it at a share `t` of the way.
-    pub fn known(&self, t: f64) -> Known {
+    /// Eigenvalue at a share `t` of the interval.
+    pub fn eigenvalue(&self, t: f64) -> Eigenvalue {
         let [s, slope] = self.at(t);
         let speed = self.low * (t * self.length).exp();
-        Known { speed, s, slope }
+        Eigenvalue { speed, s, slope }
     }
 
-    /// Share of the way at which a function of s and its slope, negative at the lower end, is no
-    /// longer so: by the secant, with half the value of an end that stays (the Illinois algorithm,
-    /// Dowell and Jarratt 1971).
+    /// Root, as a share of the interval, of a function of s and its slope that is negative at the lower
+    /// end: regula falsi that halves the value of a retained end (Illinois algorithm, Dowell and Jarratt
+    /// 1971).
     pub fn root(&self, function: impl Fn([Complex<f64>; 2]) -> f64) -> f64 {
         let ([mut a, mut b], mut t) = ([0.0, 1.0], 1.0);
         let [mut below, mut above] = [a, b].map(|t| function(self.at(t)));
         let mut stayed = None;
-        for _ in 0..STEPS {
+        for _ in 0..MAX_STEPS {
             let before = t;
             t = (a * above - b * below) / (above - below);
-            if (t - before).abs() < FOUND {
+            if (t - before).abs() < ROOT_ACCURACY {
                 break;
             }
             let value = function(self.at(t));

@@ -1,14 +1,15 @@
-//! Second-order linear systems with speed-dependent damping.
+//! Second-order linear systems whose damping depends on a speed: plain matrices.
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use super::Row;
-
+/// Equations of motion of n coordinates q under m inputs u, at any speed V.
+///
 /// ```math
 /// M q̈ + (C0 + C1/V + C2 V) q̇ + K q = −(C0u + C1u/V + C2u V) u̇ − K_u u
 /// ```
 ///
-/// C and K are stored over [q, u], n × (n + m). M is diagonal; a zero marks a massless point.
+/// C and K are stored over [q, u], n × (n + m). M is diagonal; a zero marks a coordinate
+/// without mass.
 #[derive(Debug, Clone)]
 pub struct LinearSystem {
     /// Diagonal of M, kg or kg m².
@@ -17,27 +18,16 @@ pub struct LinearSystem {
     pub inputs: usize,
     /// K over [q, u].
     pub stiffness: DMatrix<f64>,
-    /// C0, C1, C2 over [q, u]: independent of the speed, over it, and proportional to it.
+    /// C0, C1, C2 over [q, u]: constant, inverse and proportional to V.
     pub damping: [DMatrix<f64>; 3],
-    /// Coordinates that are each other's mirror images, of one plane of symmetry after another.
+    /// Pairs of coordinates that a reflection exchanges, one plane of symmetry after another.
     pub mirrored: Vec<[usize; 2]>,
-    /// Coordinates that are each other's counterparts in two parts that are alike.
+    /// Pairs of coordinates that correspond to each other in two parts of one shape.
     pub alike: Vec<[usize; 2]>,
 }
 
-/// How a damping constant depends on the speed V.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Speed {
-    /// Independent of V: a damper.
-    Constant = 0,
-    /// ∝ 1/V: creep.
-    Inverse = 1,
-    /// ∝ V: gyroscopic.
-    Proportional = 2,
-}
-
 impl LinearSystem {
-    /// A system with diagonal `mass` and no forces yet.
+    /// A system with diagonal `mass`, K = 0 and C = 0.
     pub fn new(mass: Vec<f64>, inputs: usize) -> Self {
         let zero = DMatrix::zeros(mass.len(), mass.len() + inputs);
         Self {
@@ -55,23 +45,6 @@ impl LinearSystem {
         self.mass.len()
     }
 
-    /// Adds a spring and damper: k·row⊗stretch to K, c·row⊗stretch to C0. `row` is where the
-    /// restoring force acts, `stretch` what the element feels.
-    pub fn add_element(&mut self, row: &Row, stretch: &Row, k: f64, c: f64) {
-        self.add_stiffness(row, stretch, k);
-        self.add_damping(Speed::Constant, row, stretch, c);
-    }
-
-    /// Adds k·row⊗stretch to K.
-    pub fn add_stiffness(&mut self, row: &Row, stretch: &Row, k: f64) {
-        add(&mut self.stiffness, row, stretch, k);
-    }
-
-    /// Adds c·row⊗stretch to C0, C1 or C2.
-    pub fn add_damping(&mut self, speed: Speed, row: &Row, stretch: &Row, c: f64) {
-        add(&mut self.damping[speed as usize], row, stretch, c);
-    }
-
     /// C at speed V (m/s) over [q, u].
     pub fn damping_at(&self, v: f64) -> DMatrix<f64> {
         let [c0, c1, c2] = &self.damping;
@@ -86,7 +59,7 @@ impl LinearSystem {
 
     /// Matrix of the first-order form ẋ = A x with u = 0 at speed V.
     ///
-    /// x = [q_m, q̇_m, q_0]: coordinates with mass, their rates, and massless points, whose own
+    /// x = [q_m, q̇_m, q_0]: coordinates with mass, their rates, and coordinates without, whose own
     /// rates follow from C_00 q̇_0 = −C_0m q̇_m − K_0m q_m − K_00 q_0.
     pub fn state_matrix(&self, v: f64) -> DMatrix<f64> {
         let c = self.damping_at(v);
@@ -114,7 +87,7 @@ impl LinearSystem {
                     rates[(r, nm + s)] -= c[(i, j)];
                 }
             }
-            // A singular C_00 means a point without a damper, which building the model refuses.
+            // C_00 is singular if a massless coordinate has no damper.
             if let Some(solution) = c00.lu().solve(&rates) {
                 a.rows_mut(2 * nm, n0).copy_from(&solution);
             } else {
@@ -169,15 +142,5 @@ impl LinearSystem {
             (0..n).map(|j| x[j] * damping[(i, j)]).sum::<Complex<f64>>()
                 + s * x[i] * (2.0 * self.mass[i])
         })
-    }
-}
-
-/// Terms of `row` in inputs act on the rails, which have no equation.
-fn add(matrix: &mut DMatrix<f64>, row: &Row, stretch: &Row, constant: f64) {
-    let n = matrix.nrows();
-    for &(i, r) in row.terms().iter().filter(|(i, _)| *i < n) {
-        for &(j, s) in stretch.terms() {
-            matrix[(i, j)] += constant * r * s;
-        }
     }
 }
