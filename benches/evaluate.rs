@@ -6,9 +6,9 @@ use bogie::{
     dynamics::{LateralModel, VerticalModel},
     evaluate::{
         Evaluation,
-        critical_speed::Stability,
         curving::CurvingLimits,
         ride::{LateralRide, VerticalRide},
+        stability::Stability,
     },
     index::Index,
     numerics::Poles,
@@ -89,7 +89,7 @@ fn critical_speed(bencher: Bencher) {
 fn critical_speed_by_spectra(bencher: Bencher) {
     let case = Case::prototype();
     bencher.bench_local(|| {
-        Stability::search(&LateralModel::new(black_box(&case)), case.model.speed_range)
+        Stability::by_spectra(&LateralModel::new(black_box(&case)), case.model.speed_range)
     });
 }
 

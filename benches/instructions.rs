@@ -27,9 +27,9 @@ mod counted {
         dynamics::{LateralModel, VerticalModel, curving::CurvingError},
         evaluate::{
             Evaluation,
-            critical_speed::Stability,
             curving::CurvingLimits,
             ride::{LateralRide, NoRide, VerticalRide},
+            stability::Stability,
         },
         numerics::{EigenError, Poles},
     };

@@ -7,10 +7,10 @@ use bogie::{
     design::measure::{Wanted, measure, measure_graded},
     dynamics::{LateralModel, VerticalModel, curving::CurvingModel},
     evaluate::{
-        critical_speed::Stability,
         curving::{CurvingLimits, CurvingState, Limit, ServiceCurve},
         gradients::{Constants, curving::CurvingTangents, modes},
         ride::{LateralRide, VerticalRide},
+        stability::Stability,
     },
     index::Index,
     numerics::Poles,

@@ -6,7 +6,10 @@ use bogie::{
     case::Case,
     design::measure::{Wanted, measure, measure_graded},
     dynamics::LateralModel,
-    evaluate::{Evaluation, kinematic_mode::KinematicMode, lateral_modes::LateralModes},
+    evaluate::{
+        Evaluation,
+        modes::{KinematicMode, LateralModes},
+    },
     index::Index,
     numerics::Poles,
     optimize::problem::Failure,

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     case::Case,
-    evaluate::{critical_speed::Stability, curving::CurvingLimits},
+    evaluate::{curving::CurvingLimits, stability::Stability},
     index::MET,
     optimize::{
         archive::{Archive, Stop},

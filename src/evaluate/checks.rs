@@ -3,8 +3,8 @@
 mod curves;
 
 use super::{
-    Evaluation, curving::CurveStatus, equalization::wheel_load_changes, limits, ride::NoRide,
-    vertical_modes::flexible_separations,
+    Evaluation, curving::CurveStatus, equalization::wheel_load_changes, limits,
+    modes::flexible_separations, ride::NoRide,
 };
 use crate::{
     case::Case, closed_form::natural_frequencies as closed, index::MET, units::Quantity,

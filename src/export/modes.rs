@@ -11,10 +11,7 @@ use super::{
 use crate::{
     case::Case,
     dynamics::{LateralModel, VerticalModel},
-    evaluate::{
-        lateral_modes::{AtSpeed, LateralModes},
-        vertical_modes::{VerticalMode, vertical_modes},
-    },
+    evaluate::modes::{AtSpeed, LateralModes, VerticalMode, vertical_modes},
     numerics::{EigenError, Poles},
     units::Quantity,
 };

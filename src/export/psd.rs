@@ -12,10 +12,7 @@ use super::{
 use crate::{
     case::Case,
     dynamics::{ForcedModel, LateralModel, VerticalModel, lateral, vertical},
-    evaluate::{
-        response::Response,
-        ride::{NoRide, stationary},
-    },
+    evaluate::ride::{NoRide, response::Response, stationary},
     numerics::{EigenError, Poles, elimination::LANES},
 };
 

@@ -9,10 +9,7 @@ use crate::{
     chart::{Axis, Curve, Dash, Family, Figure, Ink, Labels, Panel, Scale, Stroke, Unit, Weight},
     comfort::{iso_boundary, third_octave},
     dynamics::{ForcedModel, LateralModel, VerticalModel, lateral, vertical},
-    evaluate::{
-        passenger_ride::{BandRide, PassengerRide},
-        ride::mean_squares_between,
-    },
+    evaluate::ride::{BandRide, PassengerRide, mean_squares_between},
     numerics::Poles,
     units::Quantity,
 };

@@ -8,10 +8,7 @@ use super::{
 };
 use crate::{
     dynamics::LateralModel,
-    evaluate::{
-        kinematic_mode::KinematicMode,
-        lateral_modes::{LateralShape, OVERDAMPED},
-    },
+    evaluate::modes::{KinematicMode, LateralShape, OVERDAMPED},
     units::Quantity,
 };
 

@@ -6,10 +6,7 @@ use super::{
 use crate::{
     chart::{Axis, Curve, Family, Figure, Ink, Labels, Mark, Panel, Scale, Stroke, Symbol, Unit},
     dynamics::{LateralModel, VerticalModel},
-    evaluate::{
-        lateral_modes::{LateralShape, OVERDAMPED},
-        vertical_modes::{VerticalShape, vertical_modes},
-    },
+    evaluate::modes::{LateralShape, OVERDAMPED, VerticalShape, vertical_modes},
     numerics::Poles,
     parameter::Parameter,
 };

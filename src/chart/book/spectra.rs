@@ -15,7 +15,7 @@ use crate::{
     },
     comfort::iso_boundary,
     dynamics::{ForcedModel, LateralModel, VerticalModel, lateral, vertical},
-    evaluate::{response::Response, ride::mean_squares_between},
+    evaluate::ride::{mean_squares_between, response::Response},
     numerics::elimination::LANES,
     vehicle::GRAVITY,
 };

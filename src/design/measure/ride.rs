@@ -4,8 +4,7 @@ use super::{BANDS, Lateral, Measured, Vertical, curving::Curve, no_ride, pieces}
 use crate::{
     evaluate::{
         limits::PEAK,
-        passenger_ride::PassengerRide,
-        ride::{LateralRide, VerticalRide, average},
+        ride::{LateralRide, PassengerRide, VerticalRide, average},
         stroke_in_curve::taken,
     },
     index::Index,

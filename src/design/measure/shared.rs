@@ -13,7 +13,7 @@ use super::{Measured, Wanted, measure_each};
 use crate::{
     case::{Case, Model, Service},
     dynamics::{Digest, LateralModel, VerticalModel},
-    evaluate::kinematic_mode::KinematicBand,
+    evaluate::modes::KinematicBand,
     index::{Behaviour, Index},
 };
 

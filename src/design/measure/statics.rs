@@ -7,7 +7,7 @@ use crate::{
     evaluate::{
         checks::separations,
         gradients::five_point,
-        vertical_modes::{flexible_separations, vertical_modes},
+        modes::{Separation, flexible_separations, vertical_modes},
     },
     index::Index,
     numerics::Poles,
@@ -85,7 +85,7 @@ fn flexible_modes(model: &VerticalModel, poles: &Poles) -> Result<Vec<Piece>, Fa
     if separations.is_empty() {
         return Err(Failure::NoMode);
     }
-    let piece = |s: &crate::evaluate::vertical_modes::Separation| Piece {
+    let piece = |s: &Separation| Piece {
         label: s.flexible.ln() + s.truck.ln(),
         ..Piece::single(0, s.ratio)
     };

@@ -4,7 +4,7 @@ use nalgebra::Complex;
 
 use crate::{
     dynamics::ForcedTangent,
-    evaluate::{critical_speed::Crossing, mode::Mode},
+    evaluate::{modes::Mode, stability::Crossing},
     numerics::LinearSystem,
 };
 

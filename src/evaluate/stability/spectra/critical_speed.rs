@@ -1,9 +1,9 @@
 //! The critical speed by full spectra on a grid of speeds.
 //!
-//! Each mode is followed from one speed to the next. Where it changes from damped to growing,
-//! Newton's method finds the speed exactly. Where a mode's damping has a minimum between grid
-//! points, the minimum is looked up, so that a narrow range of instability is not stepped over.
-//! Last, the vehicle is checked to be stable just below the lowest crossing.
+//! Each mode is matched from one speed to the next. Where it changes from damped to growing, Newton's
+//! method finds the speed. Where its damping ratio has a minimum between grid points, the minimum is
+//! refined, so that a narrow range of instability is not stepped over. Last, the spectrum just below
+//! the lowest onset must be stable.
 
 use super::{
     damping_range::{dip, refine},
@@ -12,31 +12,31 @@ use super::{
 };
 use crate::{
     dynamics::LateralModel,
-    evaluate::critical_speed::{Crossing, Stability},
+    evaluate::stability::{Crossing, Stability},
     numerics::{EigenError, damping_ratio},
 };
 
-/// Speeds in the search grid.
-const GRID: usize = 20;
-/// A minimum of damping that may come below this is looked at more closely.
-const MARGIN: f64 = 0.02;
-/// Divisions of an interval in which several modes lose their damping.
-const DIVISIONS: usize = 12;
-/// Halvings of a speed interval: to 1e-12 of it.
-const BISECTIONS: usize = 40;
+/// Number of speeds in the grid.
+const GRID_SPEEDS: usize = 20;
+/// Estimate of a least damping ratio below which the minimum is refined.
+const REFINED_BELOW: f64 = 0.02;
+/// Limit on the divisions of an interval in which several modes lose their damping.
+const MAX_DIVISIONS: usize = 12;
+/// Limit on the halvings of a speed interval: to 1e-12 of it.
+const MAX_BISECTIONS: usize = 40;
 
 impl Stability {
-    /// Searches `range`, m/s, by full spectra.
+    /// Onsets in `range`, m/s, by full spectra.
     ///
     /// # Errors
     ///
     /// [`EigenError`] if eigenvalues cannot be had.
-    pub fn search(model: &LateralModel, range: [f64; 2]) -> Result<Self, EigenError> {
+    pub fn by_spectra(model: &LateralModel, range: [f64; 2]) -> Result<Self, EigenError> {
         let ratio = range[1] / range[0];
-        let speeds: Vec<f64> = (0..GRID)
-            .map(|k| range[0] * ratio.powf(k as f64 / (GRID - 1) as f64))
+        let speeds: Vec<f64> = (0..GRID_SPEEDS)
+            .map(|k| range[0] * ratio.powf(k as f64 / (GRID_SPEEDS - 1) as f64))
             .collect();
-        // Above the first onset nothing lower can be found.
+        // A refinement of the sweep above the first onset finds no lower one.
         let sweep = sweep(model, &speeds, 0.0)?;
         let mut stability = Self {
             range,
@@ -45,7 +45,7 @@ impl Stability {
             divergence: sweep[0].diverges.then_some(range[0]),
         };
         for pair in sweep.windows(2) {
-            stability.cross(model, &pair[0], &pair[1], DIVISIONS)?;
+            stability.cross(model, &pair[0], &pair[1], MAX_DIVISIONS)?;
         }
         for triple in sweep.windows(3) {
             stability.look_between(model, triple)?;
@@ -55,8 +55,8 @@ impl Stability {
         Ok(stability)
     }
 
-    /// Adds the onsets between two speeds. Two modes that lose their damping within one interval
-    /// (those of the two trucks nearly coincide) are first told apart by dividing it.
+    /// Adds the onsets between two speeds. An interval in which two modes lose their damping (the trucks'
+    /// modes nearly coincide) is divided first.
     fn cross(
         &mut self,
         model: &LateralModel,
@@ -106,8 +106,8 @@ impl Stability {
         }
     }
 
-    /// Looks for an instability that begins and ends between grid points: a mode whose damping has
-    /// a minimum there that may reach zero.
+    /// Adds the onsets of an instability that begins and ends between grid points: of a mode whose damping
+    /// ratio has a minimum there below zero.
     fn look_between(
         &mut self,
         model: &LateralModel,
@@ -117,20 +117,20 @@ impl Stability {
         for [first, middle, last] in a.through(b, c) {
             let known = [(a.speed, first), (b.speed, middle), (c.speed, last)];
             let [za, zb, zc] = known.map(|(_, s)| damping_ratio(s));
-            if zb > 0.0 && zb <= za && zb <= zc && dip(known) < MARGIN {
+            if zb > 0.0 && zb <= za && zb <= zc && dip(known) < REFINED_BELOW {
                 let minimum = refine(model, known)?;
                 if let Some(minimum) = minimum.filter(|m| m.damping_ratio < 0.0) {
                     let unstable = Spectrum::at(model, minimum.speed)?;
-                    self.cross(model, a, &unstable, DIVISIONS)?;
+                    self.cross(model, a, &unstable, MAX_DIVISIONS)?;
                 }
             }
         }
         Ok(())
     }
 
-    /// Makes sure that nothing grows just below the lowest onset.
+    /// Adds onsets until nothing grows just below the lowest.
     fn certify(&mut self, model: &LateralModel, first: &Spectrum) -> Result<(), EigenError> {
-        for _ in 0..BISECTIONS {
+        for _ in 0..MAX_BISECTIONS {
             let Some(lowest) = self.onsets.first() else {
                 break;
             };
@@ -155,8 +155,8 @@ impl Stability {
     }
 }
 
-/// The lowest change from no growing mode to some, by halving between a stable and an unstable
-/// speed, then Newton.
+/// Lowest speed at which the number of growing modes increases, by bisection between two speeds and then
+/// Newton's method.
 fn bisect(
     model: &LateralModel,
     low: &Spectrum,
@@ -167,7 +167,7 @@ fn bisect(
     if high.unstable() <= count {
         return Ok(None);
     }
-    for _ in 0..BISECTIONS {
+    for _ in 0..MAX_BISECTIONS {
         let middle = Spectrum::at(model, f64::midpoint(low.speed, high.speed))?;
         if middle.unstable() > count {
             high = middle;

@@ -12,14 +12,13 @@ use crate::{
     },
 };
 
-/// Accuracy of mean squares: estimated error over value. Halved, RMS values change by less than
-/// 1e-6.
-const TOLERANCE: f64 = 1e-6;
+/// Accuracy of mean squares, estimated error over value. Halving it changes RMS values by less than 1e-6.
+const MEAN_SQUARE_TOLERANCE: f64 = 1e-6;
 
-/// Why there is no stationary response.
+/// Reason why there is no stationary response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NoRide {
-    /// An oscillation grows without limit, or something drifts.
+    /// An oscillation grows without limit, or a coordinate drifts.
     #[error("unstable at the speed: there is no stationary response")]
     Unstable,
     /// A motion without oscillation grows.
@@ -28,7 +27,7 @@ pub enum NoRide {
     /// An integral did not meet its tolerance, or rounding decides how high a resonance is.
     #[error("the random response did not converge")]
     NotConverged,
-    /// The poles cannot be had.
+    /// The eigenvalues did not converge.
     #[error(transparent)]
     Poles(#[from] EigenError),
 }
@@ -77,12 +76,12 @@ pub struct VerticalRide {
     pub wheel_load: [f64; 4],
 }
 
-/// Averages of the report: over c.g., front and rear, or over the two ends; of RMS values.
+/// Average of RMS values, the report's: over c.g., front and rear, or over the two ends.
 pub fn average(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Whether there is a stationary response.
+/// Check for a stationary response.
 ///
 /// # Errors
 ///
@@ -99,8 +98,8 @@ pub fn stationary(model: &ForcedModel, poles: &Poles) -> Result<(), NoRide> {
     }
 }
 
-/// Integrals over panels between `edges`, Hz, of the densities of a response, of as many functions as
-/// `further` says that `more` makes of them, and of their derivatives by design constants.
+/// Integrals over panels between `edges`, Hz, of the densities of a response, of `further` functions
+/// that `more` computes from the densities, and of the densities' derivatives by design constants.
 pub(super) fn mean_squares(
     mut response: Response<'_>,
     case: &Case,
@@ -112,7 +111,7 @@ pub(super) fn mean_squares(
     let outputs = response.outputs();
     let checked = outputs + further;
     let functions = [checked + outputs * response.constants(), checked];
-    let integrals = integrate(edges, functions, TOLERANCE, |f, values| {
+    let integrals = integrate(edges, functions, MEAN_SQUARE_TOLERANCE, |f, values| {
         let (values, derivatives) = values.split_at_mut(checked);
         response.with_derivatives(f, &mut values[..outputs], derivatives);
         more(f, values);
@@ -148,13 +147,13 @@ pub(crate) fn mean_squares_between(
     Ok(between.collect())
 }
 
-/// Change of an RMS value with that of its square; what does not move at all does not for any reason.
+/// Change of an RMS value with that of its square; zero at an RMS value of zero.
 pub(super) fn rms_change(rms: f64, of_square: f64) -> f64 {
     of_square / (2.0 * rms).max(f64::MIN_POSITIVE)
 }
 
-/// RMS values of all outputs of a model, as `of` arranges them, and likewise their derivatives by the
-/// constants of some tangents.
+/// RMS values of all outputs of a model and their derivatives by the constants of some tangents, each
+/// arranged by `of`.
 fn rms<T>(
     model: &ForcedModel,
     case: &Case,
@@ -178,45 +177,66 @@ fn rms<T>(
     Ok((of(&rms), derivatives))
 }
 
+/// RMS values of a range of outputs.
 fn array<const N: usize>(rms: &[f64], outputs: std::ops::Range<usize>) -> [f64; N] {
     std::array::from_fn(|i| rms[outputs.start + i])
 }
 
+/// Constructors and averages that the lateral and the vertical ride share.
+macro_rules! ride {
+    ($ride:ident of $model:ident) => {
+        impl $ride {
+            /// Ride of a case.
+            ///
+            /// # Errors
+            ///
+            /// [`NoRide`] where there is no stationary response.
+            pub fn new(model: &$model, case: &Case) -> Result<Self, NoRide> {
+                let poles = Poles::at(&model.forced, case.service.speed)?;
+                Self::from_poles(model, case, &poles)
+            }
+
+            /// Ride of a case whose poles at the operating speed are known.
+            ///
+            /// # Errors
+            ///
+            /// [`NoRide`] where there is no stationary response.
+            pub fn from_poles(model: &$model, case: &Case, poles: &Poles) -> Result<Self, NoRide> {
+                Self::with_derivatives(model, case, poles, &[]).map(|(ride, _)| ride)
+            }
+
+            /// Ride, and the derivatives of all values by the constants of some tangents.
+            ///
+            /// # Errors
+            ///
+            /// [`NoRide`] where there is no stationary response.
+            pub fn with_derivatives(
+                model: &$model,
+                case: &Case,
+                poles: &Poles,
+                tangents: &[ForcedTangent],
+            ) -> Result<(Self, Vec<Self>), NoRide> {
+                rms(&model.forced, case, poles, tangents, Self::of)
+            }
+
+            /// ACC: RMS acceleration averaged over the three points, m/s².
+            pub fn average_acceleration(&self) -> f64 {
+                average(&self.acceleration)
+            }
+
+            /// ST: RMS secondary stroke averaged over the two trucks, m.
+            pub fn average_stroke(&self) -> f64 {
+                average(&self.secondary_stroke)
+            }
+        }
+    };
+}
+
+ride!(LateralRide of LateralModel);
+ride!(VerticalRide of VerticalModel);
+
 impl LateralRide {
-    /// Lateral ride of a case.
-    ///
-    /// # Errors
-    ///
-    /// [`NoRide`] where there is none.
-    pub fn new(model: &LateralModel, case: &Case) -> Result<Self, NoRide> {
-        let poles = Poles::at(&model.forced, case.service.speed)?;
-        Self::from_poles(model, case, &poles)
-    }
-
-    /// As [`LateralRide::new`], with the poles at the operating speed known.
-    ///
-    /// # Errors
-    ///
-    /// [`NoRide`] where there is none.
-    pub fn from_poles(model: &LateralModel, case: &Case, poles: &Poles) -> Result<Self, NoRide> {
-        Self::with_derivatives(model, case, poles, &[]).map(|(ride, _)| ride)
-    }
-
-    /// As [`LateralRide::from_poles`], with the derivatives of all values by design constants.
-    ///
-    /// # Errors
-    ///
-    /// [`NoRide`] where there is none.
-    pub fn with_derivatives(
-        model: &LateralModel,
-        case: &Case,
-        poles: &Poles,
-        tangents: &[ForcedTangent],
-    ) -> Result<(Self, Vec<Self>), NoRide> {
-        rms(&model.forced, case, poles, tangents, Self::of)
-    }
-
-    /// From values in the order of the model's outputs.
+    /// From RMS values in the order of the model's outputs.
     fn of(rms: &[f64]) -> Self {
         use lateral::output::{
             ACCELERATION, EXCURSION, LONGITUDINAL_STROKE, PRIMARY_STROKE, ROLL_ACCELERATION,
@@ -231,53 +251,10 @@ impl LateralRide {
             excursion: array(rms, EXCURSION),
         }
     }
-
-    /// ACC_L: RMS acceleration averaged over the three points, m/s².
-    pub fn average_acceleration(&self) -> f64 {
-        average(&self.acceleration)
-    }
-
-    /// ST_L: RMS secondary stroke averaged over the two trucks, m.
-    pub fn average_stroke(&self) -> f64 {
-        average(&self.secondary_stroke)
-    }
 }
 
 impl VerticalRide {
-    /// Vertical ride of a case.
-    ///
-    /// # Errors
-    ///
-    /// [`NoRide`] where there is none.
-    pub fn new(model: &VerticalModel, case: &Case) -> Result<Self, NoRide> {
-        let poles = Poles::at(&model.forced, case.service.speed)?;
-        Self::from_poles(model, case, &poles)
-    }
-
-    /// As [`VerticalRide::new`], with the poles known.
-    ///
-    /// # Errors
-    ///
-    /// [`NoRide`] where there is none.
-    pub fn from_poles(model: &VerticalModel, case: &Case, poles: &Poles) -> Result<Self, NoRide> {
-        Self::with_derivatives(model, case, poles, &[]).map(|(ride, _)| ride)
-    }
-
-    /// As [`VerticalRide::from_poles`], with the derivatives of all values by design constants.
-    ///
-    /// # Errors
-    ///
-    /// [`NoRide`] where there is none.
-    pub fn with_derivatives(
-        model: &VerticalModel,
-        case: &Case,
-        poles: &Poles,
-        tangents: &[ForcedTangent],
-    ) -> Result<(Self, Vec<Self>), NoRide> {
-        rms(&model.forced, case, poles, tangents, Self::of)
-    }
-
-    /// From values in the order of the model's outputs.
+    /// From RMS values in the order of the model's outputs.
     fn of(rms: &[f64]) -> Self {
         use vertical::output::{
             ACCELERATION, PRIMARY_STROKE, ROLL_ACCELERATION, SECONDARY_STROKE, WHEEL_LOAD,
@@ -289,15 +266,5 @@ impl VerticalRide {
             primary_stroke: array(rms, PRIMARY_STROKE),
             wheel_load: array(rms, WHEEL_LOAD),
         }
-    }
-
-    /// ACC_v: RMS acceleration averaged over the three points, m/s².
-    pub fn average_acceleration(&self) -> f64 {
-        average(&self.acceleration)
-    }
-
-    /// ST_v: RMS secondary stroke averaged over the two trucks, m.
-    pub fn average_stroke(&self) -> f64 {
-        average(&self.secondary_stroke)
     }
 }

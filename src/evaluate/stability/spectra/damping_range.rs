@@ -6,53 +6,57 @@ use super::spectrum::{Spectrum, sweep};
 use crate::{
     dynamics::LateralModel,
     evaluate::{
-        damping_range::{DampingMinimum, DampingRange, Place},
-        lateral_modes::OVERDAMPED,
+        modes::OVERDAMPED,
+        stability::{DampingMinimum, DampingRange, Place},
     },
     numerics::{EigenError, damping_ratio, frequency},
 };
 
-/// Distance from an end of the range, as a share of the speed, at which its slope is looked up.
-const CLOSE: f64 = 1e-3;
-/// Ratio of neighbouring speeds in the first look.
-const RATIO: f64 = 1.3;
-/// Eigenvalues this close, as a share of their size, are a pair.
-const TWIN: f64 = 0.01;
-/// Steps to a minimum, eight are normal, and how close they come to its ln V: ζ is then
-/// right to its square.
-const STEPS: usize = 40;
-const SETTLED: f64 = 3e-6;
-/// Gain of ζ by a further step at which the parabolas have converged: far below what constraints
-/// are kept to.
-const GAIN: f64 = 1e-11;
-/// A search this close to an end, as a share of the way to it, is on its way out: the modes at the
-/// end were taken for others.
-const EDGE: f64 = 0.02;
-/// Share of an interval that the golden section takes.
+/// Distance from an end of the range, as a share of the speed, of the spectrum that gives the slope there.
+const END_GAP: f64 = 1e-3;
+/// Largest ratio of neighbouring speeds of the grid.
+const SPEED_RATIO: f64 = 1.3;
+/// Relative distance of two eigenvalues below which they count as twins.
+const TWIN_DISTANCE: f64 = 0.01;
+/// Limit on the steps to a minimum; eight are usual.
+const MAX_STEPS: usize = 40;
+/// Accuracy of a minimum in ln V; that of ζ is its square.
+const LN_SPEED_ACCURACY: f64 = 3e-6;
+/// Gain in ζ by a further step below which the parabolas have converged: far below the tolerance of
+/// constraints.
+const LEAST_GAIN: f64 = 1e-11;
+/// Distance from an end of the interval, as a share of that of the start, below which the minimum is
+/// taken to lie outside: modes were confused at the end.
+const END_SHARE: f64 = 0.02;
+/// Share of an interval that a golden-section step takes.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
 impl DampingMinimum {
     fn is_about(&self, other: &Self) -> bool {
         self.place == other.place
-            && (self.speed / other.speed - 1.0).abs() < TWIN
-            && (self.frequency / other.frequency - 1.0).abs() < TWIN
+            && (self.speed / other.speed - 1.0).abs() < TWIN_DISTANCE
+            && (self.frequency / other.frequency - 1.0).abs() < TWIN_DISTANCE
     }
 }
 
 impl DampingRange {
-    /// Looks through `range`, m/s, for minima with damping ratios `below` a value; the least at
-    /// each end is always among them. By full spectra.
+    /// Minima in `range`, m/s, with damping ratios `below` a value, and the least one at each end, by full
+    /// spectra.
     ///
     /// # Errors
     ///
     /// [`EigenError`] if eigenvalues cannot be had.
-    pub fn search(model: &LateralModel, range: [f64; 2], below: f64) -> Result<Self, EigenError> {
+    pub fn by_spectra(
+        model: &LateralModel,
+        range: [f64; 2],
+        below: f64,
+    ) -> Result<Self, EigenError> {
         let [low, high] = range;
         let mut speeds = vec![low];
-        let least = (high / low).powf(0.5).min(RATIO);
+        let least = (high / low).powf(0.5).min(SPEED_RATIO);
         while speeds
             .last()
-            .is_some_and(|v| v * least < high * (1.0 - CLOSE))
+            .is_some_and(|v| v * least < high * (1.0 - END_GAP))
         {
             speeds.push(low * least.powi(i32::try_from(speeds.len()).unwrap_or(i32::MAX)));
         }
@@ -69,14 +73,13 @@ impl DampingRange {
         for triple in sweep.windows(3) {
             found.inside(model, triple, below)?;
         }
-        // A minimum in the first or last interval hides behind the end of the range: a speed close
-        // to the end tells.
+        // A minimum within the first or last interval shows by the slope at the end of the range.
         if let ([first, second, ..], [.., next, last]) = (&sweep[..], &sweep[..]) {
             let middle = (low * second.speed).sqrt();
-            let close = Spectrum::at(model, middle.min(low * (1.0 + CLOSE)))?;
+            let close = Spectrum::at(model, middle.min(low * (1.0 + END_GAP)))?;
             found.inside(model, &[first.clone(), close, second.clone()], below)?;
             let middle = (next.speed * high).sqrt();
-            let close = Spectrum::at(model, middle.max(high * (1.0 - CLOSE)))?;
+            let close = Spectrum::at(model, middle.max(high * (1.0 - END_GAP)))?;
             found.inside(model, &[next.clone(), close, last.clone()], below)?;
         }
         Ok(found)
@@ -109,7 +112,7 @@ impl DampingRange {
     ) -> Result<(), EigenError> {
         let [a, b, c] = triple else { return Ok(()) };
         for [first, middle, last] in a.through(b, c) {
-            // Of modes that nearly coincide the lower counts: which is which depends on the speed.
+            // Of nearly coincident modes the less damped counts; which of them it is depends on the speed.
             let start = [(a, first), (b, middle), (c, last)]
                 .map(|(at, s)| (at.speed, least_damped_near(at, s).unwrap_or(s)));
             let [za, zb, zc] = start.map(|(_, s)| damping_ratio(s));
@@ -124,18 +127,18 @@ impl DampingRange {
     }
 }
 
-/// The least damped of the modes near an expected eigenvalue: the trucks' modes come in pairs that
-/// nearly coincide, and the lower one counts.
+/// The least damped mode near an expected eigenvalue: the trucks' modes come in nearly coincident pairs,
+/// of which the less damped counts.
 fn least_damped_near(spectrum: &Spectrum, expected: Complex<f64>) -> Option<Complex<f64>> {
     let nearest = spectrum.nearest(expected)?;
-    let reach = (nearest - expected).norm() + TWIN * nearest.norm();
+    let reach = (nearest - expected).norm() + TWIN_DISTANCE * nearest.norm();
     let near = spectrum.oscillatory.iter().copied();
     near.filter(|s| (s - expected).norm() <= reach)
         .min_by(|a, b| damping_ratio(*a).total_cmp(&damping_ratio(*b)))
 }
 
-/// How low the damping ratio may fall between three speeds: twice as far below the middle one as
-/// the parabola through them does.
+/// Lower estimate of the damping ratio between three speeds: twice as far below the middle value as the
+/// vertex of the parabola through the three.
 pub(super) fn dip(known: [(f64, Complex<f64>); 3]) -> f64 {
     let [a, b, c] = known.map(|(v, s)| (v.ln(), damping_ratio(s)));
     let (left, right) = (b.0 - a.0, c.0 - b.0);
@@ -151,8 +154,8 @@ pub(super) fn dip(known: [(f64, Complex<f64>); 3]) -> f64 {
 
 /// The minimum between three speeds, the middle one least damped, over ln V: parabolas through the
 /// three best, the golden section where these fail (Brent: *Algorithms for Minimization without
-/// Derivatives*, 1973, chapter 5). The mode is the one nearest to where the two best put it. `None`
-/// if it goes on down to one of the ends.
+/// Derivatives*, 1973, chapter 5). At each speed the mode is the one nearest to the extrapolation of the
+/// two best. `None` if the damping ratio falls all the way to an end.
 pub(super) fn refine(
     model: &LateralModel,
     start: [(f64, Complex<f64>); 3],
@@ -168,14 +171,14 @@ pub(super) fn refine(
         (last, first)
     };
     let (mut step, mut before) = (b - a, b - a);
-    for _ in 0..STEPS {
+    for _ in 0..MAX_STEPS {
         let centre = f64::midpoint(a, b);
-        if (x.0 - centre).abs() <= 2.0 * SETTLED - 0.5 * (b - a) {
+        if (x.0 - centre).abs() <= 2.0 * LN_SPEED_ACCURACY - 0.5 * (b - a) {
             break;
         }
-        // Down to an end of the interval: there it is another one's to find.
+        // A minimum at an end of the interval belongs to the neighbouring one.
         let heads_out = |end: f64, bound: f64, middle: f64| {
-            end.to_bits() == bound.to_bits() && (x.0 - end).abs() < EDGE * (middle - end).abs()
+            end.to_bits() == bound.to_bits() && (x.0 - end).abs() < END_SHARE * (middle - end).abs()
         };
         if heads_out(a, first.0, middle.0) || heads_out(b, last.0, middle.0) {
             return Ok(None);
@@ -187,22 +190,22 @@ pub(super) fn refine(
         let q = 2.0 * (q - r);
         let (p, q) = if q > 0.0 { (-p, q) } else { (p, -q) };
         let inside = p > q * (a - x.0) && p < q * (b - x.0);
-        if before.abs() > SETTLED && inside && p.abs() < (0.5 * q * before).abs() {
-            // What the last parabola is off, the next one gains.
+        if before.abs() > LN_SPEED_ACCURACY && inside && p.abs() < (0.5 * q * before).abs() {
+            // The next step gains the error of the last parabola.
             let gain = 0.5 * p * p / q / ((x.0 - w.0) * (x.0 - v.0) * (w.0 - v.0)).abs();
-            if gain < GAIN && (p / q).abs() < 0.1 * step.abs() {
+            if gain < LEAST_GAIN && (p / q).abs() < 0.1 * step.abs() {
                 break;
             }
             (step, before) = (p / q, step);
             let u = x.0 + step;
-            if u - a < 2.0 * SETTLED || b - u < 2.0 * SETTLED {
-                step = SETTLED.copysign(centre - x.0);
+            if u - a < 2.0 * LN_SPEED_ACCURACY || b - u < 2.0 * LN_SPEED_ACCURACY {
+                step = LN_SPEED_ACCURACY.copysign(centre - x.0);
             }
         } else {
             before = if x.0 >= centre { a - x.0 } else { b - x.0 };
             step = GOLDEN * before;
         }
-        let u = x.0 + step.abs().max(SETTLED).copysign(step);
+        let u = x.0 + step.abs().max(LN_SPEED_ACCURACY).copysign(step);
         let expected = x.1 + (w.1 - x.1) * ((u - x.0) / (w.0 - x.0));
         let Some(s) = least_damped_near(&Spectrum::at(model, u.exp())?, expected) else {
             break;

@@ -21,10 +21,10 @@ use std::{f64::consts::TAU, ops::Range};
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use super::mode::Mode;
 use crate::{
     case::Case,
     dynamics::{Excitation, ForcedModel, Output, Row},
+    evaluate::modes::Mode,
     numerics::{LinearSystem, Poles, damping_ratio, size},
 };
 

@@ -1,9 +1,6 @@
 //! Modes of the lateral model at one speed, named by what moves.
 
-use super::{
-    kinematic_mode::{KinematicBand, KinematicMode},
-    mode::Mode,
-};
+use super::{KinematicBand, KinematicMode, Mode};
 use crate::{
     case::Case,
     dynamics::{

@@ -1,10 +1,10 @@
-//! Oscillatory modes followed from one speed to another.
+//! Full spectra, and the matching of their modes from one speed to another.
 
 use nalgebra::Complex;
 
 use crate::{
     dynamics::LateralModel,
-    evaluate::lateral_modes::OVERDAMPED,
+    evaluate::modes::OVERDAMPED,
     numerics::{EigenError, Poles, damping_ratio},
 };
 
@@ -13,20 +13,20 @@ use crate::{
 pub(super) struct Spectrum {
     /// V, m/s.
     pub speed: f64,
-    /// Those with positive imaginary part.
+    /// Eigenvalues with positive imaginary part.
     pub oscillatory: Vec<Complex<f64>>,
-    /// Whether a motion without oscillation grows.
+    /// True if a motion without oscillation grows.
     pub diverges: bool,
 }
 
-/// Damping ratios below this are looked at more closely: between speeds of a coarse sweep they may
-/// fall below zero and rise again, and modes that veer apart may be taken for one another.
-const LOW: f64 = 0.03;
-/// Parts into which an interval of the sweep with so little damping is divided.
+/// Damping ratio below which the sweep is refined: between the speeds of a coarse one it may fall below
+/// zero and rise again, and modes that veer apart may be confused.
+const REFINED_BELOW: f64 = 0.03;
+/// Number of parts into which such an interval of the sweep is divided.
 const PARTS: i32 = 4;
 
-/// Spectra at `speeds`, m/s, and between them where a mode is lightly damped: down to the damping
-/// ratio `from`.
+/// Spectra at `speeds`, m/s, and between them where the least damping ratio lies between `from` and
+/// [`REFINED_BELOW`].
 pub(super) fn sweep(
     model: &LateralModel,
     speeds: &[f64],
@@ -35,7 +35,7 @@ pub(super) fn sweep(
     let mut sweep: Vec<Spectrum> = Vec::new();
     for &speed in speeds {
         let next = Spectrum::at(model, speed)?;
-        let light = |s: &Spectrum| (from..LOW).contains(&s.least_damping());
+        let light = |s: &Spectrum| (from..REFINED_BELOW).contains(&s.least_damping());
         if let Some(last) = sweep.last().filter(|last| light(last) || light(&next)) {
             let (start, ratio) = (last.speed, speed / last.speed);
             for part in 1..PARTS {
@@ -49,9 +49,9 @@ pub(super) fn sweep(
 }
 
 impl Spectrum {
-    /// Computes them at `speed`, m/s.
+    /// Spectrum at `speed`, m/s, by the Schur form of the whole matrix.
     pub fn at(model: &LateralModel, speed: f64) -> Result<Self, EigenError> {
-        let poles = Poles::at(&model.forced, speed)?;
+        let poles = Poles::plain(&model.forced.system, speed)?;
         Ok(Self {
             speed,
             diverges: poles.diverge(),
@@ -78,7 +78,7 @@ impl Spectrum {
             .min_by(|a, b| (a - to).norm_sqr().total_cmp(&(b - to).norm_sqr()))
     }
 
-    /// Modes that can be followed from one speed over the next to a third, at all three.
+    /// Eigenvalues of the modes that are matched over three speeds.
     pub fn through(&self, next: &Self, last: &Self) -> Vec<[Complex<f64>; 3]> {
         let before = self.follow(next);
         let after = next.follow(last).into_iter();
@@ -90,7 +90,7 @@ impl Spectrum {
             .collect()
     }
 
-    /// Pairs every oscillatory mode with where it is at another speed, the closest pairs first.
+    /// Matches of the oscillatory modes with those at another speed, the closest pairs first.
     pub fn follow(&self, other: &Self) -> Vec<(Complex<f64>, Complex<f64>)> {
         let relevant = |s: &&Complex<f64>| damping_ratio(**s) < OVERDAMPED;
         let mut pairs: Vec<(f64, usize, usize)> = Vec::new();

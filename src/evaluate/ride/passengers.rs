@@ -3,7 +3,7 @@
 use super::{
     panels::response_panels,
     response::Response,
-    ride::{NoRide, mean_squares, rms_change, stationary},
+    rms::{NoRide, mean_squares, rms_change, stationary},
 };
 use crate::{
     case::Case,

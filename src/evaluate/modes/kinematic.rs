@@ -21,11 +21,12 @@ use std::f64::consts::{SQRT_2, TAU};
 
 use nalgebra::{Complex, DVector};
 
-use super::{gradients::modes, mode::Mode};
+use super::Mode;
 use crate::{
     case::Case,
     closed_form::kinematic,
     dynamics::{ForcedTangent, LateralModel},
+    evaluate::gradients::modes,
     numerics::{EigenError, damping_ratio, damping_ratio_change, diverge, eigenvalues, size},
 };
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use crate::{evaluate::mode::Mode, numerics::LinearSystem};
+use crate::{evaluate::modes::Mode, numerics::LinearSystem};
 
 /// A purely imaginary eigenvalue iω at speed V.
 #[derive(Debug, Clone)]
@@ -13,10 +13,10 @@ pub struct Hopf {
     pub mode: Mode,
 }
 
-/// Newton steps allowed; from a start within a few per cent four are enough.
-const STEPS: usize = 25;
-/// Relative change of V and ω at which the iteration has converged.
-const CONVERGED: f64 = 1e-12;
+/// Limit on the Newton steps; from a start within a few per cent four are enough.
+const MAX_NEWTON_STEPS: usize = 25;
+/// Relative change of V and ω at convergence.
+const NEWTON_TOLERANCE: f64 = 1e-12;
 
 /// Solves det D(iω; V) = 0 for (V, ω) from a start.
 ///
@@ -26,7 +26,7 @@ pub fn hopf(system: &LinearSystem, mut v: f64, mut omega: f64) -> Option<Hopf> {
     let i = Complex::I;
     let start = Mode::at(system, &system.damping_at(v), i * omega)?;
     let (mut shape, mut left) = (start.shape, start.left);
-    for _ in 0..STEPS {
+    for _ in 0..MAX_NEWTON_STEPS {
         let damping = system.damping_at(v);
         let d = system.dynamic_stiffness(&damping, i * omega);
         let adjoint = d.adjoint().lu();
@@ -49,7 +49,7 @@ pub fn hopf(system: &LinearSystem, mut v: f64, mut omega: f64) -> Option<Hopf> {
         // A step to half or double at most: speeds and frequencies stay positive.
         v = (v + step_v).clamp(v / 2.0, v * 2.0);
         omega = (omega + step_omega).clamp(omega / 2.0, omega * 2.0);
-        if step_v.abs() < CONVERGED * v && step_omega.abs() < CONVERGED * omega {
+        if step_v.abs() < NEWTON_TOLERANCE * v && step_omega.abs() < NEWTON_TOLERANCE * omega {
             let mode = Mode {
                 eigenvalue: i * omega,
                 shape,

@@ -1,16 +1,13 @@
 //! Critical speed: the lowest speed at which an oscillatory mode loses its damping (3.4.4.2).
 
-use super::{
-    branches::{Branches, Care, Event, Search},
-    mode::Mode,
-};
 use crate::{
     case::Case,
     dynamics::{LateralModel, lateral::Body},
+    evaluate::modes::Mode,
     numerics::{EigenError, Poles, frequency},
 };
 
-/// Which body hunts.
+/// Body that hunts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hunting {
     /// The wheelsets and truck frames carry most of the energy.
@@ -35,27 +32,27 @@ pub struct Crossing {
     pub speed: f64,
     /// Hunting frequency, Hz.
     pub frequency: f64,
-    /// Which body hunts.
+    /// Body that hunts.
     pub kind: Hunting,
     /// Shape and left vector.
     pub mode: Mode,
 }
 
-/// Outcome of the search.
+/// Onsets of instability over a range of speeds.
 #[derive(Debug, Clone)]
 pub struct Stability {
     /// Range searched, m/s.
     pub range: [f64; 2],
     /// Onsets of instability in ascending speed. Empty: stable over the whole range.
     pub onsets: Vec<Crossing>,
-    /// The vehicle already hunts at the lowest speed searched.
+    /// True if the vehicle already hunts at the lowest speed searched.
     pub unstable_at_start: bool,
-    /// The lowest speed searched, m/s, if a motion without oscillation grows there: none begins to at a
-    /// higher speed, as det K does not depend on the speed.
+    /// The lowest speed searched, m/s, if a motion without oscillation grows there. Divergence begins at
+    /// no higher speed, because det K does not depend on the speed.
     pub divergence: Option<f64>,
 }
 
-/// What the search has come to.
+/// Outcome of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
     /// A motion without oscillation grows at the lowest speed searched: there is no critical speed.
@@ -91,10 +88,6 @@ impl std::fmt::Display for Outcome {
     }
 }
 
-/// Shares of the lowest onset's speed below it at which nothing must grow: the first at which that can be
-/// told.
-const BEYOND: [f64; 2] = [1e-5, 1e-4];
-
 impl Crossing {
     /// A mode that loses its damping at `speed`, m/s.
     pub(super) fn new(model: &LateralModel, speed: f64, mode: Mode) -> Self {
@@ -126,9 +119,8 @@ impl Stability {
         Self::new(&model, &poles, case.model.speed_range, 1.0)
     }
 
-    /// Searches `range`, m/s, up to a multiple `reach`, at least one, of the lowest onset, from the
-    /// poles at any speed: by following the modes, or by full spectra where these cannot be told
-    /// apart.
+    /// Onsets in `range`, m/s, up to a multiple `reach`, at least one, of the lowest, from the poles at
+    /// any speed: by following the modes, or by full spectra where that has no answer.
     ///
     /// # Errors
     ///
@@ -139,71 +131,13 @@ impl Stability {
         range: [f64; 2],
         reach: f64,
     ) -> Result<Self, EigenError> {
-        match Self::followed(model, poles, range, reach) {
+        match Self::by_following(model, poles, range, reach) {
             Some(stability) => Ok(stability),
-            None => Self::search(model, range),
+            None => Self::by_spectra(model, range),
         }
     }
 
-    /// By following the modes from the poles at some speed. `None` where they cannot be.
-    pub fn followed(
-        model: &LateralModel,
-        poles: &Poles,
-        range: [f64; 2],
-        reach: f64,
-    ) -> Option<Self> {
-        let with = |care| Self::followed_with(care, model, poles, range, reach);
-        Care::BOTH.into_iter().find_map(with)
-    }
-
-    fn followed_with(
-        care: Care,
-        model: &LateralModel,
-        poles: &Poles,
-        range: [f64; 2],
-        reach: f64,
-    ) -> Option<Self> {
-        let [low, high] = range;
-        let mut branches = Branches::within(range, model, poles)?;
-        let mut search = Search::onsets(care);
-        let enough = |events: &[Event], speed: f64| {
-            let speeds = events.iter().map(|event| event.at.speed);
-            speed > reach * speeds.fold(f64::INFINITY, f64::min)
-        };
-        let bottom = branches.walk(low, &mut search, |_, _| false)?;
-        let bottom = branches.complete(bottom, &mut search)?;
-        let unstable_at_start = bottom.iter().any(|known| known.s.re >= 0.0);
-        let mut certified = unstable_at_start;
-        if !enough(&search.events, branches.start_speed()) {
-            let top = branches.walk(high, &mut search, enough)?;
-            // The lowest onset is a place to certify, if there is one; the top otherwise.
-            certified |= stable_below_lowest(&mut branches, &search.events);
-            if !certified {
-                branches.complete(top, &mut search)?;
-                certified = search.events.is_empty();
-            }
-        }
-        if !certified && !stable_below_lowest(&mut branches, &search.events) {
-            return None;
-        }
-        let mut events = search.events;
-        events.sort_by(|a, b| a.at.speed.total_cmp(&b.at.speed));
-        let mut onsets = Vec::with_capacity(events.len());
-        for event in events {
-            onsets.push(Crossing::new(model, event.at.speed, event.mode?));
-        }
-        // Nearly equal real eigenvalues may come out as a pair.
-        let as_good_as_real = || Poles::at(&model.forced, low).is_ok_and(|poles| poles.diverge());
-        let diverges = branches.diverges() || unstable_at_start && as_good_as_real();
-        Some(Self {
-            range,
-            onsets,
-            unstable_at_start,
-            divergence: diverges.then_some(low),
-        })
-    }
-
-    /// What the search has come to.
+    /// Outcome of the search.
     pub fn outcome(&self) -> Outcome {
         if self.divergence.is_some() {
             Outcome::Diverges
@@ -230,17 +164,4 @@ impl Stability {
     pub fn onset(&self, kind: Hunting) -> Option<&Crossing> {
         self.onsets.iter().find(|onset| onset.kind == kind)
     }
-}
-
-/// Whether nothing grows just below the lowest of some onsets; not if there is none.
-fn stable_below_lowest(branches: &mut Branches<'_>, onsets: &[Event]) -> bool {
-    let lowest = onsets
-        .iter()
-        .map(|event| &event.at)
-        .min_by(|a, b| a.speed.total_cmp(&b.speed));
-    lowest.is_some_and(|at| {
-        let stable =
-            |beyond: f64| branches.stable_at(at.speed * (1.0 - beyond), at.s - at.slope * beyond);
-        BEYOND.into_iter().find_map(stable).unwrap_or(false)
-    })
 }

@@ -1,6 +1,6 @@
 //! Modes of the vertical model, named by what moves; they do not depend on the speed.
 
-use super::{lateral_modes::OVERDAMPED, mode::Mode};
+use super::{Mode, OVERDAMPED};
 use crate::{
     dynamics::{VerticalModel, vertical::Coordinate},
     numerics::{EigenError, Poles, damping_ratio, frequency},
