@@ -30,6 +30,7 @@ pub mod design;
 pub mod dynamics;
 pub mod evaluate;
 pub mod export;
+pub mod failure;
 pub mod index;
 pub mod numerics;
 pub mod optimize;

@@ -3,14 +3,7 @@
 
 use std::{fmt::Write, fs};
 
-use bogie::{
-    case::Case,
-    export::number::both,
-    index::{Index, Sense},
-    parameter::Parameter,
-    spec::keys::{self, ENTRIES, Need, TABLES},
-    units::{Quantity, Range},
-};
+use bogie::{case::Case, units::{number::both, Quantity, Range}, index::{Index, Sense}, parameter::Parameter, spec::keys::{self, ENTRIES, Need, TABLES}};
 
 /// What a value is, with examples in both unit systems.
 fn kind(quantity: Quantity) -> String {

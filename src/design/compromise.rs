@@ -254,7 +254,7 @@ fn open_shortfall(
     (open.and_terms_of(&bounds), terms)
 }
 
-/// Whether the model does not cover a term: it is a force or stroke in a curve that is not brought
+/// True if the model does not cover a term: it is a force or stroke in a curve that is not brought
 /// within the model.
 fn is_void(study: &Study, term: &Term, missed: &[Missed]) -> bool {
     let is_outside = |m: &Missed| {

@@ -37,7 +37,7 @@ pub struct Opposed {
     pub group: usize,
     /// Share in the conflict: the shares of a group add up to one.
     pub share: f64,
-    /// Whether any design variable changes the index.
+    /// True if any design variable changes the index.
     pub influenced: bool,
     /// The bound, SI, at which the rest could be met if it alone gave way; `None`: the rest cannot
     /// be met even without it.

@@ -26,7 +26,7 @@ pub struct Chosen {
     pub variable: Variable,
     /// Its value, SI.
     pub value: f64,
-    /// Whether it lies on its lower or upper bound.
+    /// True if it lies on its lower or upper bound.
     pub at_bound: Option<Bound>,
     /// Relative gain of the objective per relative move outwards of the bound that it lies on.
     pub bound_price: f64,

@@ -57,7 +57,7 @@ impl Margin {
         }
     }
 
-    /// Whether the demand is met.
+    /// True if the demand is met.
     pub fn met(&self) -> bool {
         self.verdict() == Verdict::Met
     }

@@ -29,7 +29,7 @@ pub struct Missed {
     pub group: usize,
     /// Share in the conflict: the shares of a group add up to one; 0 if it holds nothing.
     pub share: f64,
-    /// Whether any design variable changes the index.
+    /// True if any design variable changes the index.
     pub influenced: bool,
 }
 
@@ -41,7 +41,7 @@ impl Missed {
         }
     }
 
-    /// Whether the value reached counts as meeting the demand.
+    /// True if the value reached counts as meeting the demand.
     pub fn met(&self) -> bool {
         self.reached
             .is_some_and(|reached| self.demand().met_by(reached))
@@ -122,7 +122,7 @@ impl<'a> Reached<'a> {
         }
     }
 
-    /// Whether a variable changes term `k`: at this design or at some others spread over the box.
+    /// True if a variable changes term `k`: at this design or at some others spread over the box.
     fn is_influenced(&self, k: usize) -> bool {
         /// Designs beside this one: more than any box has corners in two variables.
         const OTHERS: usize = 6;

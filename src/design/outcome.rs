@@ -164,7 +164,7 @@ pub struct DesignResult {
     pub stages: Vec<StageResult>,
     /// Rounds of the coupling loop; 0 for all at once.
     pub rounds: usize,
-    /// Whether the last round changed nothing any more.
+    /// True if the last round changed nothing any more.
     pub settled: bool,
     /// The joint optimisation beside the sequential one.
     pub joint: Option<Joint>,
@@ -214,7 +214,7 @@ impl DesignResult {
         losses.fold(0.0, f64::max)
     }
 
-    /// Whether the design delivered is the optimum itself.
+    /// True if the design delivered is the optimum itself.
     pub fn is_optimum(&self) -> bool {
         self.losses.is_empty()
     }
@@ -224,7 +224,7 @@ impl DesignResult {
         self.free.iter().find(|free| free.parameter == parameter)
     }
 
-    /// Whether the trade-offs in turn miss what the delivered design, all at once, meets or comes
+    /// True if the trade-offs in turn miss what the delivered design, all at once, meets or comes
     /// closer to.
     pub fn joint_in_place_of_sequence(&self) -> bool {
         self.delivered == Delivered::AllAtOnce && self.joint.is_some()
@@ -249,7 +249,7 @@ impl DesignResult {
         self.margins.iter().filter(|m| !m.met())
     }
 
-    /// Whether all demands are met, by a design that every search could evaluate.
+    /// True if all demands are met, by a design that every search could evaluate.
     pub fn met(&self) -> bool {
         self.unmet().next().is_none() && self.failure().is_none()
     }

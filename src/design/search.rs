@@ -40,7 +40,7 @@ impl Searched {
         self.solved = self.solved.clone().with_curvature(&self.study, archive);
     }
 
-    /// Whether a demand counts as not met.
+    /// True if a demand counts as not met.
     pub fn misses(&self) -> bool {
         self.missed.iter().any(|missed| !missed.met())
     }

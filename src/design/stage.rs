@@ -235,7 +235,7 @@ impl Candidate {
         }
     }
 
-    /// Whether it is better than another: violations that differ by less than is seen are decided
+    /// True if it is better than another: violations that differ by less than is seen are decided
     /// by the objective, equals by the order in which they come.
     fn is_better(&self, other: &Self) -> bool {
         let ((class, value), (others_class, others)) = (self.rank(), other.rank());

@@ -8,7 +8,7 @@ use crate::index::MET;
 pub struct Standing {
     /// Relative shortfalls of the demands that are not met, the largest first.
     shortfalls: Vec<f64>,
-    /// Whether a search that led to the design found none with a performance.
+    /// True if a search that led to the design found none with a performance.
     failed: bool,
 }
 
@@ -21,7 +21,7 @@ impl Standing {
         Self { shortfalls, failed }
     }
 
-    /// Whether it is better than another: the largest shortfall decides, then the next, as far as they
+    /// True if it is better than another: the largest shortfall decides, then the next, as far as they
     /// differ by more than is seen.
     pub fn is_better_than(&self, other: &Self) -> bool {
         let count = self.shortfalls.len().max(other.shortfalls.len());

@@ -43,11 +43,11 @@ pub struct Design {
     pub case: Case,
     /// Value of every index, SI, in the nominal condition, or why it has none.
     pub values: Vec<Result<f64, NoValue>>,
-    /// Whether it meets all that is asked, in every condition; `None` where nothing is.
+    /// True if it meets all that is asked, in every condition; `None` where nothing is.
     pub meets_all: Option<Meets>,
 }
 
-/// Whether a design meets what is asked. The worse of several answers is the greater.
+/// True if a design meets what is asked. The worse of several answers is the greater.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Meets {
     /// All of it.
@@ -150,7 +150,7 @@ impl<'a> Sweep<'a> {
         self.spec.design.parameters.iter().map(|(p, _)| *p)
     }
 
-    /// Whether anything is asked of a design.
+    /// True if anything is asked of a design.
     pub fn asks(&self) -> bool {
         self.demands
             .iter()

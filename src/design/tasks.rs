@@ -103,7 +103,7 @@ impl<'a> Tasks<'a> {
         case
     }
 
-    /// Whether a trade-off has anything to choose.
+    /// True if a trade-off has anything to choose.
     pub fn open(&self, trade_off: TradeOff) -> bool {
         self.space.parameters.iter().any(|(parameter, freedom)| {
             parameter.trade_off() == trade_off
@@ -111,7 +111,7 @@ impl<'a> Tasks<'a> {
         })
     }
 
-    /// Whether a tie reaches from one trade-off into another, so that they cannot be taken in turn.
+    /// True if a tie reaches from one trade-off into another, so that they cannot be taken in turn.
     pub fn entangled(&self) -> bool {
         self.space.parameters.iter().any(|(parameter, freedom)| {
             matches!(freedom, Freedom::Tied { to, .. } if to.trade_off() != parameter.trade_off())

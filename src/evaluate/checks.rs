@@ -24,7 +24,7 @@ pub struct Check {
     pub value: Result<f64, NotAssessed>,
     /// What it should have, SI.
     pub limit: f64,
-    /// Whether the value should be at least, rather than at most, the limit.
+    /// True if the value should be at least, rather than at most, the limit.
     pub at_least: bool,
 }
 

@@ -1,9 +1,6 @@
 //! An evaluation as a page that a designer reads at a glance.
 
-use super::{
-    number::{both, significant},
-    sheet::Sheet,
-};
+use super::sheet::Sheet;
 use crate::{
     case::Case,
     evaluate::{
@@ -15,7 +12,10 @@ use crate::{
         stability::{Hunting, Outcome},
     },
     track::curvature_of_degree,
-    units::Quantity,
+    units::{
+        Quantity,
+        number::{both, significant},
+    },
 };
 
 /// Everything that `bogie evaluate` prints.

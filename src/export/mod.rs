@@ -11,7 +11,6 @@ pub(crate) mod evaluation_text;
 pub mod file;
 pub(crate) mod freedom;
 pub mod modes;
-pub mod number;
 pub mod origin;
 pub mod pareto;
 pub mod psd;

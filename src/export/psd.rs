@@ -5,7 +5,6 @@ use serde_json::{Map, Value, json};
 use super::{
     evaluation_json::{ride_status, ride_status_text},
     evaluation_text::title,
-    number::significant,
     sheet::Sheet,
     table::Table,
 };
@@ -14,6 +13,7 @@ use crate::{
     dynamics::{ForcedModel, LateralModel, VerticalModel, lateral, vertical},
     evaluate::ride::{NoRide, response::Response, stationary},
     numerics::{EigenError, Poles, elimination::LANES},
+    units::number::significant,
 };
 
 /// A spectrum: name with unit, values.

@@ -22,7 +22,7 @@ pub struct Journal {
     file: File,
 }
 
-/// What a journal belongs to.
+/// Program and spec of a journal.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Header {
     /// Program and version.
@@ -34,13 +34,13 @@ pub struct Header {
 /// A measurement read from a journal.
 #[derive(Debug, Clone)]
 pub struct Entry {
-    /// What was measured.
+    /// Key of the measurement.
     pub key: Key,
-    /// What it gave.
+    /// Its result.
     pub measured: Measured,
 }
 
-/// Why a journal cannot be used.
+/// Reason why a journal cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
     /// The file system refused.
@@ -161,7 +161,7 @@ impl Journal {
     }
 }
 
-/// Keeps other runs out, until the file is closed or the process is gone.
+/// Lock of the file until it is closed or the process ends.
 fn lock(file: &File) -> Result<(), JournalError> {
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => Err(JournalError::Busy),

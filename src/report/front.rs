@@ -14,15 +14,10 @@ use crate::{
         margin::worst_value,
         pareto::{Front, FrontPoint},
     },
-    export::{
-        certificate::certificate,
-        number::{both, significant, value},
-        pareto::sparse,
-        sheet::Sheet,
-        status,
-    },
+    export::{certificate::certificate, pareto::sparse, sheet::Sheet, status},
     index::Index,
     parameter::Parameter,
+    units::number::{both, significant, value},
 };
 
 /// The section; none without a front.

@@ -13,6 +13,7 @@
 mod dimension;
 mod error;
 mod expression;
+pub mod number;
 mod quantity;
 mod range;
 mod symbol;
@@ -23,3 +24,6 @@ pub use error::UnitError;
 pub use expression::{LONGEST, Measure, Unit, pattern};
 pub use quantity::{DisplayUnit, Quantity};
 pub use range::Range;
+
+/// Standard acceleration of gravity, m/s² (CGPM 1901).
+pub const GRAVITY: f64 = 9.806_65;

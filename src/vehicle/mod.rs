@@ -17,10 +17,9 @@ pub use suspension::{AirSpring, DAMPING_PER_STIFFNESS, Primary, Secondary, Suspe
 pub use truck::Truck;
 pub use wheelset::Wheelset;
 
-use serde::Serialize;
+pub use crate::units::GRAVITY;
 
-/// Standard acceleration of gravity, m/s² (CGPM 1901).
-pub const GRAVITY: f64 = 9.806_65;
+use serde::Serialize;
 
 /// One vehicle with its suspension and the points where its passengers sit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -1,6 +1,6 @@
 //! Values with their units, as titles and labels show them.
 
-use crate::{export::number::significant, units::DisplayUnit};
+use crate::units::{DisplayUnit, number::significant};
 
 /// A value with its unit, large and small ones as multiples of powers of ten.
 pub fn written(unit: DisplayUnit, si: f64, figures: u8) -> String {

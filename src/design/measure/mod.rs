@@ -86,7 +86,7 @@ pub fn measure_each(case: &Case, wanted: &[Wanted]) -> Vec<Result<Vec<Piece>, Fa
     Job::new(case, wanted, None, Purpose::Verdict).run()
 }
 
-/// Whether a value is only an end of the range searched: of speeds for the critical speed, of curves for
+/// True if a value is only an end of the range searched: of speeds for the critical speed, of curves for
 /// the limits of curving.
 pub fn is_only_bounded(case: &Case, index: Index, value: f64) -> bool {
     let [low, high] = case.model.speed_range;

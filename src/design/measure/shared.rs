@@ -104,13 +104,13 @@ impl Shared {
     }
 }
 
-/// Whether the lateral model, with the band of kinematic motion, decides it.
+/// True if the lateral model, with the band of kinematic motion, decides it.
 fn is_lateral(wanted: Wanted) -> bool {
     let in_curve = matches!(wanted, Wanted::Index(Index::SecondaryLateralStrokeInCurve));
     wanted.is_of_lateral_model() && !in_curve
 }
 
-/// Whether the vertical model, with the static wheel load, decides it.
+/// True if the vertical model, with the static wheel load, decides it.
 fn is_vertical(wanted: Wanted) -> bool {
     matches!(wanted, Wanted::Index(index) if index.behaviour() == Behaviour::VerticalRide)
 }

@@ -21,7 +21,7 @@ pub(super) struct Filling {
 }
 
 impl Filling {
-    /// Whether there is no place left to search at.
+    /// True if there is no place left to search at.
     pub fn is_at_end(&self) -> bool {
         self.is_at_end
     }

@@ -23,9 +23,9 @@ pub struct FrontPoint {
     pub(super) x: Vec<f64>,
     /// The search that led to it.
     pub(super) aim: Aim,
-    /// Whether it was searched for everywhere.
+    /// True if it was searched for everywhere.
     pub(super) is_verified: bool,
-    /// Whether its other indices are as good as they can be for next to nothing.
+    /// True if its other indices are as good as they can be for next to nothing.
     pub(super) is_spared: bool,
 }
 
@@ -127,7 +127,7 @@ pub(super) fn converged(points: &mut Vec<FrontPoint>, indices: &[Index]) {
     points.retain(|p| ends.next().unwrap_or(false) || is_optimum(p));
 }
 
-/// Whether no point is better in some index.
+/// True if no point is better in some index.
 fn is_end(badness: &[Vec<f64>], i: usize) -> bool {
     let indices = 0..badness[i].len();
     indices

@@ -146,7 +146,7 @@ impl Sensitivity {
         self.groups * self.settings.method.group(self.factors.len())
     }
 
-    /// Whether there is less than what was asked for.
+    /// True if there is less than what was asked for.
     pub fn interrupted(&self) -> bool {
         self.groups < self.settings.method.groups()
     }

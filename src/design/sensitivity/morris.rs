@@ -142,7 +142,7 @@ fn step(levels: usize) -> f64 {
 struct Trajectory {
     /// Level of every factor at the lower end of its step: below p/2.
     lower: Vec<usize>,
-    /// Whether the step goes up.
+    /// True if the step goes up.
     up: Vec<bool>,
     /// In which order the factors move.
     order: Vec<usize>,

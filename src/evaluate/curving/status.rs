@@ -1,4 +1,4 @@
-//! Whether the linear model covers a curve.
+//! True if the linear model covers a curve.
 
 use super::{Limit, first_exceedance};
 use crate::{
@@ -6,7 +6,7 @@ use crate::{
     index::MET,
 };
 
-/// Whether the linear steady-curving model covers a curve. It ends at flange contact and at slip,
+/// True if the linear steady-curving model covers a curve. It ends at flange contact and at slip,
 /// and needs load on every wheel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CurveStatus {

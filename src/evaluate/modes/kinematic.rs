@@ -54,7 +54,7 @@ impl KinematicBand {
         }
     }
 
-    /// Whether it holds a frequency, Hz.
+    /// True if it holds a frequency, Hz.
     pub fn holds(self, frequency: f64) -> bool {
         (self.low..=self.high).contains(&frequency)
     }
@@ -118,7 +118,7 @@ impl TruckMotion {
         size(self.eigenvalue) / TAU
     }
 
-    /// Whether it oscillates.
+    /// True if it oscillates.
     pub fn oscillates(&self) -> bool {
         self.eigenvalue.im > 0.0
     }

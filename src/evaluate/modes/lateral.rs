@@ -75,7 +75,7 @@ pub struct LateralModes {
     pub oscillatory: Vec<LateralMode>,
     /// Real eigenvalues, 1/s, ascending; a positive one is a divergence.
     pub real: Vec<f64>,
-    /// Whether a motion without oscillation grows.
+    /// True if a motion without oscillation grows.
     pub diverge: bool,
     /// Hunting of a truck under a carbody at rest, whatever modes are named; `None` if it or the
     /// vehicle diverges.
@@ -161,13 +161,13 @@ impl LateralModes {
         }
     }
 
-    /// Whether nothing grows.
+    /// True if nothing grows.
     pub fn stable(&self) -> bool {
         self.oscillatory.iter().all(|m| m.damping_ratio > 0.0) && self.real.iter().all(|&s| s < 0.0)
     }
 }
 
-/// Whether the motions of a vehicle die away at one speed.
+/// True if the motions of a vehicle die away at one speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AtSpeed {
     /// All do.

@@ -61,12 +61,12 @@ impl VerticalShape {
         })
     }
 
-    /// Whether it is a flexible mode of the carbody.
+    /// True if it is a flexible mode of the carbody.
     pub fn is_flexible(self) -> bool {
         matches!(self, Self::Bending | Self::Torsion1 | Self::Torsion2)
     }
 
-    /// Whether the truck frames carry it.
+    /// True if the truck frames carry it.
     pub fn is_truck(self) -> bool {
         matches!(self, Self::TruckHeave | Self::TruckPitch | Self::TruckRoll)
     }

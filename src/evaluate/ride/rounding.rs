@@ -61,7 +61,7 @@ pub(super) fn decides(
     uncertain.any(|(k, sum)| *sum > LOST * total(k))
 }
 
-/// Whether all that grows does so by no more than rounding. What no damper touches stays as it is for sure.
+/// True if all that grows does so by no more than rounding. What no damper touches stays as it is for sure.
 pub(super) fn makes_grow(model: &ForcedModel, poles: &Poles) -> bool {
     let mut growing = poles.values.iter().filter(|s| s.re >= 0.0 && s.im >= 0.0);
     growing.all(|s| {
@@ -101,7 +101,7 @@ impl Resonance {
         })
     }
 
-    /// Whether any damper is in reach of it.
+    /// True if any damper is in reach of it.
     fn is_damped(&self) -> bool {
         let (left, shape) = (&self.mode.left, &self.mode.shape);
         let n = shape.len();
