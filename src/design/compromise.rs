@@ -18,7 +18,7 @@
 //! all are weighed together; if not, they are left out.
 
 use super::{
-    lifted::{Lifted, solve_lifted},
+    epigraph::{EpigraphSolution, solve_with_epigraph},
     missed::{Missed, Reached},
     study::{Rank, Role, Study, Term},
 };
@@ -41,7 +41,7 @@ pub fn compromise(
     start: &Start,
     found: &Solved,
     archive: &Archive,
-) -> Result<(Lifted, Vec<Missed>), NoDesign> {
+) -> Result<(EpigraphSolution, Vec<Missed>), NoDesign> {
     let n = study.parameters().len();
     let mut descent = Descent {
         study,
@@ -86,7 +86,7 @@ pub fn best_beside(
     x: Vec<f64>,
     mut missed: Vec<Missed>,
     archive: &Archive,
-) -> Result<(Lifted, Vec<Missed>), NoDesign> {
+) -> Result<(EpigraphSolution, Vec<Missed>), NoDesign> {
     let n = study.parameters().len();
     let mut last = best_of_relaxed(&relax(study, &missed), start, x, archive)?;
     for missed in &mut missed {
@@ -147,7 +147,7 @@ impl Descent<'_> {
                 break;
             }
             let from = self.start.clone().with(vec![self.x.clone()]);
-            let closest = solve_lifted(&open, &from, self.archive)?;
+            let closest = solve_with_epigraph(&open, &from, self.archive)?;
             self.effort.add(&closest.solved.effort);
             self.x = closest.solved.point.x[..n].to_vec();
             let held = match &closest.solved.point.values {
@@ -179,7 +179,7 @@ pub fn feasible(
 ) -> Result<Option<Vec<f64>>, NoDesign> {
     let n = study.parameters().len();
     let from = start.clone().with(vec![found.point.x[..n].to_vec()]);
-    let closest = solve_lifted(&shortfall(study), &from, archive)?;
+    let closest = solve_with_epigraph(&shortfall(study), &from, archive)?;
     let x = closest.solved.point.x[..n].to_vec();
     let meets_all = study.evaluate(&x).is_ok_and(|values| values.feasible());
     Ok(meets_all.then_some(x))
@@ -191,15 +191,15 @@ fn best_of_relaxed(
     start: &Start,
     x: Vec<f64>,
     archive: &Archive,
-) -> Result<Lifted, NoDesign> {
+) -> Result<EpigraphSolution, NoDesign> {
     let start = start.clone().plainly().with(vec![x.clone()]);
-    let found = solve_lifted(relaxed, &start, archive)?;
+    let found = solve_with_epigraph(relaxed, &start, archive)?;
     let values = relaxed.evaluate(&x);
     if found.solved.point.feasible() || !values.as_ref().is_ok_and(Values::feasible) {
         return Ok(found);
     }
     // The search has lost the design that it began from.
-    Ok(Lifted {
+    Ok(EpigraphSolution {
         study: relaxed.clone(),
         solved: Solved {
             point: Point { x, values },
@@ -280,7 +280,7 @@ fn relaxed_role(missed: &Missed) -> Option<Role> {
 }
 
 /// Objective terms, by number, that hold one another at the least shortfall, with their shares.
-fn holding(closest: &Lifted, values: &Values, terms: usize) -> Vec<(usize, f64)> {
+fn holding(closest: &EpigraphSolution, values: &Values, terms: usize) -> Vec<(usize, f64)> {
     /// Without multipliers, as where no variable is left: shortfalls within this of the largest.
     const NEAR: f64 = 1e-3;
     let certificate = closest.solved.certificate.as_ref();
@@ -299,7 +299,7 @@ fn holding(closest: &Lifted, values: &Values, terms: usize) -> Vec<(usize, f64)>
         }
     }
     if let Some(certificate) = certificate {
-        share_lifted_speed(&closest.study, values, certificate, &mut shares);
+        share_epigraph_speed(&closest.study, values, certificate, &mut shares);
     }
     let total: f64 = shares.iter().filter(|share| **share > HOLDS).sum();
     let numbered = shares.into_iter().enumerate();
@@ -309,18 +309,18 @@ fn holding(closest: &Lifted, values: &Values, terms: usize) -> Vec<(usize, f64)>
         .collect()
 }
 
-/// Gives the share of the lifted speed, which is one variable for all conditions, to those whose damping
+/// Gives the share of the epigraph speed, which is one variable for all conditions, to those whose damping
 /// holds it.
-fn share_lifted_speed(
+fn share_epigraph_speed(
     study: &Study,
     values: &Values,
     certificate: &Certificate,
     shares: &mut [f64],
 ) {
-    let lifted: Vec<usize> = (0..shares.len())
-        .filter(|k| study.is_lifted_term(*k))
+    let epigraph: Vec<usize> = (0..shares.len())
+        .filter(|k| study.is_epigraph_term(*k))
         .collect();
-    let speed: f64 = lifted.iter().map(|k| shares[*k]).sum();
+    let speed: f64 = epigraph.iter().map(|k| shares[*k]).sum();
     let mut held = vec![0.0; shares.len()];
     let constraints = values.constraints.iter();
     for (piece, multiplier) in constraints.zip(&certificate.constraint_multipliers) {
@@ -328,9 +328,9 @@ fn share_lifted_speed(
             *held += multiplier;
         }
     }
-    let total: f64 = lifted.iter().map(|k| held[*k]).sum();
+    let total: f64 = epigraph.iter().map(|k| held[*k]).sum();
     if total > 0.0 {
-        for k in lifted {
+        for k in epigraph {
             shares[k] = speed * held[k] / total;
         }
     }

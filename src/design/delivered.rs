@@ -69,7 +69,7 @@ fn nearest(around: &Neighbourhood, near: &Near, given: &Case) -> Result<Option<V
     let n = around.optimum().len();
     let mut goal = study.coordinates(given);
     let count = goal.len();
-    // The lifted speed has no value as given.
+    // The epigraph speed has no value as given.
     goal.extend_from_slice(&around.optimum()[count..]);
     let aim = Aim {
         slopes: vec![0.0; n],

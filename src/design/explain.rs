@@ -224,9 +224,9 @@ const TIED: f64 = 1e-6;
 
 /// Change of the objective with each scaled coordinate as that increases: of the pieces that are
 /// largest together, that of the one that gets worst. The critical speed counts as itself, whether
-/// or not the study is lifted. `None` where gradients are not known.
+/// or not the study has an epigraph variable. `None` where gradients are not known.
 fn objective_slopes(study: &Study, x: &[f64]) -> Option<Vec<f64>> {
-    let study = study.grounded();
+    let study = study.without_epigraph();
     let n = study.variables().len();
     let measured = study.measure(&x[..n], Detail::Gradients).ok()?;
     let mut slopes = vec![0.0; n];

@@ -130,7 +130,7 @@ impl Target {
 
 /// The designs around an optimum that keep all demands.
 pub struct Neighbourhood {
-    /// The lifted study where the critical speed is an objective: all of its pieces are smooth.
+    /// The epigraph study where the critical speed is an objective: all of its pieces are smooth.
     study: Study,
     /// Scaled coordinates of the optimum in it.
     optimum: Vec<f64>,
@@ -144,7 +144,7 @@ impl Neighbourhood {
         if study.parameters().is_empty() {
             return None;
         }
-        let mut study = study.grounded();
+        let mut study = study.without_epigraph();
         let x: Vec<f64> = study
             .coordinates(case)
             .into_iter()
@@ -163,8 +163,8 @@ impl Neighbourhood {
         if targets.is_empty() {
             return None;
         }
-        let (study, optimum) = match study.lifted() {
-            Some(lifted) => (lifted, study.lift(&x).ok()?),
+        let (study, optimum) = match study.with_epigraph() {
+            Some(own) => (own, study.epigraph_start(&x).ok()?),
             None => (study, x),
         };
         Some(Self {
@@ -196,7 +196,7 @@ impl Neighbourhood {
 
     /// What a case loses of each goal. `None` if it has no performance.
     pub fn losses(&self, case: &Case) -> Option<Vec<Loss>> {
-        let plain = self.study.grounded();
+        let plain = self.study.without_epigraph();
         let values = plain.evaluate(&plain.coordinates(case)).ok()?;
         let losses = self.targets.iter().map(|target| {
             let merit = sum(&values, &target.groups)?;

@@ -382,7 +382,7 @@ impl Procedure<'_> {
                 start,
             })
             .ok()?;
-        // In the terms of the task, whether or not the solution is lifted.
+        // In the terms of the task, with or without an epigraph variable.
         let plain = &self.tasks.joint(&stage.case).study;
         let merits = [sequential, &stage.case].map(|case| plain.evaluate(&plain.coordinates(case)));
         let mut indices: Vec<Index> = Vec::new();

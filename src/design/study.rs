@@ -46,11 +46,11 @@ pub struct Study {
     variables: Vec<Variable>,
     rules: Vec<(Parameter, Rule)>,
     terms: Vec<Term>,
-    /// The critical speed as a variable of its own, the last one, see [`Study::lifted`].
-    is_lifted: bool,
+    /// The critical speed as a variable of its own, the last one, see [`Study::with_epigraph`].
+    has_epigraph: bool,
 }
 
-/// Pieces of one term, and the number of the piece that is the lifted speed itself.
+/// Pieces of one term, and the number of the piece that is the epigraph speed itself.
 const PIECES: usize = 256;
 const SPEED: usize = PIECES - 1;
 /// Damping ratios this far above what is asked hold nothing back.
@@ -68,7 +68,7 @@ impl Study {
             variables: Vec::new(),
             rules: Vec::new(),
             terms: Vec::new(),
-            is_lifted: false,
+            has_epigraph: false,
         }
     }
 

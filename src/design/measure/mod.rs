@@ -57,7 +57,7 @@ impl std::fmt::Display for Wanted {
 ///
 /// [`Failure`] where the case has no such performance.
 pub fn measure(case: &Case, wanted: &[Wanted]) -> Result<Vec<Vec<Piece>>, Failure> {
-    Job::new(case, wanted, None, Purpose::Search)
+    Measurement::new(case, wanted, None, Purpose::Search)
         .run()
         .into_iter()
         .collect()
@@ -75,15 +75,15 @@ pub fn measure_graded(
     constants: &[Parameter],
 ) -> Result<Vec<Vec<Piece>>, Failure> {
     let constants = Constants::new(case, constants);
-    let job = Job::new(case, wanted, Some(&constants), Purpose::Search);
-    job.run().into_iter().collect()
+    let measurement = Measurement::new(case, wanted, Some(&constants), Purpose::Search);
+    measurement.run().into_iter().collect()
 }
 
 /// As [`measure`], for a verdict: with a result for each of what is wanted, as a case that is unstable
 /// at its speed has no lateral ride, but it has a critical speed; and without results where the model
 /// does not cover the service curve.
 pub fn measure_each(case: &Case, wanted: &[Wanted]) -> Vec<Result<Vec<Piece>, Failure>> {
-    Job::new(case, wanted, None, Purpose::Verdict).run()
+    Measurement::new(case, wanted, None, Purpose::Verdict).run()
 }
 
 /// True if a value is only an end of the range searched: of speeds for the critical speed, of curves for
@@ -120,7 +120,7 @@ enum Purpose {
 type Measured = Result<Vec<Piece>, Failure>;
 
 /// A case and what is wanted of it.
-struct Job<'a> {
+struct Measurement<'a> {
     case: &'a Case,
     wanted: &'a [Wanted],
     /// By which gradients are taken, if they are.
@@ -128,7 +128,7 @@ struct Job<'a> {
     purpose: Purpose,
 }
 
-impl<'a> Job<'a> {
+impl<'a> Measurement<'a> {
     fn new(
         case: &'a Case,
         wanted: &'a [Wanted],

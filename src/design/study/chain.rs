@@ -13,7 +13,7 @@ pub(super) struct Chain {
     by_parameters: Vec<Vec<f64>>,
     /// Number of parameters.
     count: usize,
-    /// Derivative of the lifted speed by its own coordinate, if there is one, m/s.
+    /// Derivative of the epigraph speed by its own coordinate, if there is one, m/s.
     speed: Option<f64>,
 }
 
@@ -75,7 +75,7 @@ impl Chain {
         }
         let moves = |k: &usize| by_parameters[*k].iter().any(|slope| *slope != 0.0);
         let moving: Vec<usize> = (0..Parameter::TEN.len()).filter(moves).collect();
-        let speed = study.is_lifted.then(|| {
+        let speed = study.has_epigraph.then(|| {
             let variable = &study.variables[count];
             variable.slope(variable.value(x[count]))
         });
@@ -88,8 +88,8 @@ impl Chain {
     }
 
     /// Gradient over the variables of what has such derivatives by the constants, and behind them
-    /// perhaps one by a speed, which is the lifted one or is not.
-    pub fn gradient(&self, derivatives: &[f64], is_lifted: bool) -> Vec<f64> {
+    /// perhaps one by a speed, which is the epigraph study or is not.
+    pub fn gradient(&self, derivatives: &[f64], has_epigraph: bool) -> Vec<f64> {
         let mut gradient = vec![0.0; self.count];
         for (derivative, by) in derivatives.iter().zip(&self.by_parameters) {
             for (sum, slope) in gradient.iter_mut().zip(by) {
@@ -97,13 +97,15 @@ impl Chain {
             }
         }
         if let Some(slope) = self.speed {
-            let by_speed = derivatives.get(self.constants.len()).filter(|_| is_lifted);
+            let by_speed = derivatives
+                .get(self.constants.len())
+                .filter(|_| has_epigraph);
             gradient.push(by_speed.map_or(0.0, |derivative| derivative * slope));
         }
         gradient
     }
 
-    /// Gradient of the lifted speed itself.
+    /// Gradient of the epigraph speed itself.
     pub fn of_speed(&self) -> Vec<f64> {
         let mut gradient = vec![0.0; self.count];
         gradient.extend(self.speed);

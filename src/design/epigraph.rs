@@ -7,33 +7,37 @@ use crate::optimize::{
     solve::{NoDesign, Solved, Start, solve},
 };
 
-/// A solution with the study in whose terms it is: the lifted one where the critical speed is an
+/// A solution with the study in whose terms it is: the epigraph study where the critical speed is an
 /// objective.
 #[derive(Debug, Clone)]
-pub struct Lifted {
+pub struct EpigraphSolution {
     /// The study.
     pub study: Study,
     /// Its solution.
     pub solved: Solved,
 }
 
-/// Loss of objective against the solution of the plain study that the lifted one may have: the
-/// start value of the lifted speed lies as much below the critical speed.
+/// Loss of objective against the solution of the plain study that the epigraph study may have: the
+/// start value of the epigraph speed lies as much below the critical speed.
 const LOSS: f64 = 1e-4;
 
-/// Solves a study; where the critical speed is an objective, by its modes' speeds first and then,
-/// from the designs these led to, lifted.
+/// Solves a study. Where the critical speed is an objective, the modes' critical speeds are the pieces of
+/// a first search, whose designs start a second one with the epigraph variable.
 ///
 /// # Errors
 ///
-/// [`NoDesign`] if not one design could be evaluated.
-pub fn solve_lifted(study: &Study, start: &Start, archive: &Archive) -> Result<Lifted, NoDesign> {
+/// [`NoDesign`] if no design could be evaluated.
+pub fn solve_with_epigraph(
+    study: &Study,
+    start: &Start,
+    archive: &Archive,
+) -> Result<EpigraphSolution, NoDesign> {
     let solved = solve(study, start, archive)?;
-    let plain = |solved| Lifted {
+    let plain = |solved| EpigraphSolution {
         study: study.clone(),
         solved,
     };
-    let Some(lifted) = study.lifted() else {
+    let Some(with_epigraph) = study.with_epigraph() else {
         return Ok(plain(solved));
     };
     if archive.stopped().is_some() {
@@ -41,12 +45,14 @@ pub fn solve_lifted(study: &Study, start: &Start, archive: &Archive) -> Result<L
     }
     let optima = solved.optima.iter().map(|optimum| &optimum.found.point.x);
     let designs = optima.chain([&solved.point.x]);
-    let designs: Vec<Vec<f64>> = designs.filter_map(|x| study.lift(x).ok()).collect();
+    let designs: Vec<Vec<f64>> = designs
+        .filter_map(|x| study.epigraph_start(x).ok())
+        .collect();
     let start = Start {
         radius: WIDE / 4.0,
         ..Start::near(designs)
     };
-    let Ok(mut better) = solve(&lifted, &start, archive) else {
+    let Ok(mut better) = solve(&with_epigraph, &start, archive) else {
         return Ok(plain(solved));
     };
     let worse = better.point.objective() > solved.point.objective() + LOSS;
@@ -55,8 +61,8 @@ pub fn solve_lifted(study: &Study, start: &Start, archive: &Archive) -> Result<L
     }
     better.effort.add(&solved.effort);
     better.followed_from(&solved);
-    Ok(Lifted {
-        study: lifted,
+    Ok(EpigraphSolution {
+        study: with_epigraph,
         solved: better,
     })
 }
