@@ -35,7 +35,7 @@ use crate::optimize::{
 ///
 /// # Errors
 ///
-/// [`NoDesign`] if not one design could be evaluated.
+/// [`NoDesign`] if no design could be evaluated.
 pub fn compromise(
     study: &Study,
     start: &Start,
@@ -74,12 +74,12 @@ pub fn compromise(
     Ok(found)
 }
 
-/// The best objective beside demands that are missed, from the design at `x`, which misses no others; and
-/// these demands with what they reach there.
+/// The best objective with missed demands relaxed, from the design at `x`, which misses no others; and
+/// these demands with the values reached there.
 ///
 /// # Errors
 ///
-/// [`NoDesign`] if not one design could be evaluated.
+/// [`NoDesign`] if no design could be evaluated.
 pub fn best_beside(
     study: &Study,
     start: &Start,
@@ -104,8 +104,8 @@ pub fn best_beside(
     Ok((last, missed))
 }
 
-/// Demands of a study that are missed at `x` beside some known ones: they hold nothing, and form a group
-/// behind these.
+/// Demands of a study that are missed at `x` beside known missed ones. They have no share in the
+/// conflict and form a group of their own behind the known ones.
 pub fn also_missed(study: &Study, known: &[Missed], x: &[f64]) -> Vec<Missed> {
     let group = known.iter().map(|missed| missed.group + 1).max();
     let open = study.with_roles(|i, term| {
@@ -121,7 +121,7 @@ pub fn also_missed(study: &Study, known: &[Missed], x: &[f64]) -> Vec<Missed> {
         let group = group.unwrap_or_default();
         reached.unheld(study, [term, k], group)
     });
-    // What is short within the tolerance would leave no design either.
+    // A shortfall within the tolerance would leave no design either.
     all.filter(|missed| missed.violation() > 0.0).collect()
 }
 
@@ -137,8 +137,8 @@ struct Descent<'a> {
 }
 
 impl Descent<'_> {
-    /// Makes the violations of the demands of some ranks as small as can be, the largest first, while
-    /// those of other ranks are kept.
+    /// Lexicographic minimax of the violations of the demands of some ranks, the largest first, with the
+    /// demands of other ranks as constraints.
     fn reduce(&mut self, ranks: &[Rank], kept: &[Rank]) -> Result<(), NoDesign> {
         let n = self.x.len();
         while self.archive.stopped().is_none() {
@@ -165,12 +165,12 @@ impl Descent<'_> {
     }
 }
 
-/// Scaled coordinates of a design that meets all demands of a study, sought from one that does not;
-/// `None` if none was found.
+/// Scaled coordinates of a design that meets all demands of a study, searched from one that does not;
+/// `None` if the search finds none.
 ///
 /// # Errors
 ///
-/// [`NoDesign`] if not one design could be evaluated.
+/// [`NoDesign`] if no design could be evaluated.
 pub fn feasible(
     study: &Study,
     start: &Start,
@@ -230,9 +230,9 @@ fn as_objective(term: &Term) -> Role {
     }
 }
 
-/// The demands of some ranks that are not missed as the objective; those of other ranks, and missed
-/// ones with relaxed bounds, as constraints; and the numbers that the terms of the objective, which
-/// come first, have in the study.
+/// Study with the demands of some ranks that are not yet missed as the objective, and the demands of
+/// other ranks, and missed ones with relaxed bounds, as constraints; with the numbers, in the original
+/// study, of the objective's terms, which come first.
 fn open_shortfall(
     study: &Study,
     ranks: &[Rank],
@@ -264,8 +264,8 @@ fn is_void(study: &Study, term: &Term, missed: &[Missed]) -> bool {
     term.index.is_in_service_curve() && missed.iter().any(is_outside)
 }
 
-/// The study with the bounds of missed demands relaxed to what they reach. Terms that the model does
-/// not cover and missed demands without a value are left out.
+/// The study with the bounds of missed demands relaxed to the values reached. Terms that the model does
+/// not cover, and missed demands without a value, are left out.
 fn relax(study: &Study, missed: &[Missed]) -> Study {
     study.with_roles(|i, term| match missed.iter().find(|m| m.term == i) {
         _ if is_void(study, term, missed) => None,
@@ -309,8 +309,8 @@ fn holding(closest: &EpigraphSolution, values: &Values, terms: usize) -> Vec<(us
         .collect()
 }
 
-/// Gives the share of the epigraph speed, which is one variable for all conditions, to those whose damping
-/// holds it.
+/// Distributes the share of the epigraph speed, one variable for all conditions, over the conditions whose
+/// damping limits it.
 fn share_epigraph_speed(
     study: &Study,
     values: &Values,

@@ -22,7 +22,7 @@ use crate::{
 pub struct Nearby {
     /// The design.
     pub case: Case,
-    /// What it loses of each goal.
+    /// Loss of each goal.
     pub losses: Vec<Loss>,
 }
 
@@ -61,9 +61,9 @@ pub fn preferred(
     Ok(nearby.filter(|nearby| nearby.losses.iter().all(|loss| loss.share <= most)))
 }
 
-/// Scaled coordinates of the design nearest to one given. Variables take the value as given one after
-/// another, the nearest first, as long as the others can make good for it; those that are left are
-/// nearest in the sum of squares.
+/// Scaled coordinates of the design nearest to the given one. Variables are set to the given value one
+/// after another, the nearest first, as long as the others can compensate; the rest are nearest in the
+/// sum of squares.
 fn nearest(around: &Neighbourhood, near: &Near, given: &Case) -> Result<Option<Vec<f64>>, Stop> {
     let study = around.study();
     let n = around.optimum().len();

@@ -1,5 +1,4 @@
-//! A solved study in an engineer's terms: what holds the design back, at what price, and what the
-//! design is sensitive to.
+//! A solved study in an engineer's terms: active limits, their prices, and sensitivities.
 
 use super::{
     price::{Price, prices, relative},
@@ -17,7 +16,7 @@ use crate::{
     parameter::Parameter,
 };
 
-/// A variable and what was chosen for it.
+/// A variable and its value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chosen {
     /// Which parameter.
@@ -72,13 +71,13 @@ pub struct LocalOptimum {
 /// A solved study explained.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Explained {
-    /// What was made as good as can be.
+    /// Goal: the objective in words.
     pub goal: String,
     /// The objective's index where it is a single one.
     pub objective: Option<Objective>,
     /// Σ of the scaled objectives; `None` if the design has none.
     pub merit: Option<f64>,
-    /// What was chosen.
+    /// Variables with their values.
     pub chosen: Vec<Chosen>,
     /// How the search ended.
     pub status: Status,
@@ -98,7 +97,7 @@ pub struct Explained {
     pub optima: Vec<LocalOptimum>,
     /// How far the space was searched for others; `None` where the search stayed near designs known.
     pub coverage: Option<Coverage>,
-    /// What was spent.
+    /// Effort.
     pub effort: Effort,
 }
 
@@ -222,8 +221,8 @@ fn optima(study: &Study, found: &[Optimum]) -> Vec<LocalOptimum> {
 /// Pieces this close to the largest decide with it which way the objective goes.
 const TIED: f64 = 1e-6;
 
-/// Change of the objective with each scaled coordinate as that increases: of the pieces that are
-/// largest together, that of the one that gets worst. The critical speed counts as itself, whether
+/// Derivative of the objective with each scaled coordinate as that increases: of pieces that are largest
+/// together, the greatest. The critical speed counts as itself, whether
 /// or not the study has an epigraph variable. `None` where gradients are not known.
 fn objective_slopes(study: &Study, x: &[f64]) -> Option<Vec<f64>> {
     let study = study.without_epigraph();

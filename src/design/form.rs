@@ -13,7 +13,7 @@ use crate::{
 pub struct Line {
     /// Step of Table 4.6.1; empty for a further entry of the same step.
     pub step: &'static str,
-    /// What is entered.
+    /// Name of the entry.
     pub text: &'static str,
     /// Symbol in the report.
     pub symbol: &'static str,

@@ -40,11 +40,11 @@ const SAME: f64 = 1e-4;
 pub struct End {
     /// Value, SI.
     pub value: f64,
-    /// What is known of it.
+    /// Certainty of the end.
     pub kind: EndKind,
 }
 
-/// What is known of an end of a range.
+/// Certainty of an end of a range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EndKind {
     /// The bound of the design space.
@@ -65,7 +65,7 @@ pub struct Free {
     pub ends: [End; 2],
 }
 
-/// What a design loses of a goal against the optimum.
+/// Loss of a goal against the optimum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loss {
     /// Name of the goal: its index, the smaller margin of two, or a sum.
@@ -108,7 +108,7 @@ impl Target {
         shares * self.per_share()
     }
 
-    /// What is lost where the merit is another.
+    /// Loss in merit.
     fn loss(&self, merit: f64) -> Loss {
         let shares = (merit - self.merit) / self.per_share();
         let index = self.objective.map(|o| o.index);
@@ -138,8 +138,8 @@ pub struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    /// Around the design of a case, the solution of a study: its objectives `together` are one goal, or
-    /// each is one. `None` if nothing varies or the design has no performance.
+    /// Designs around that of a case, the solution of a study. Its objectives are one goal `together`, or
+    /// each is a goal. `None` if no parameter varies or the design has no performance.
     pub fn new(study: &Study, case: &Case, together: bool) -> Option<Self> {
         if study.parameters().is_empty() {
             return None;
@@ -194,7 +194,7 @@ impl Neighbourhood {
         goals.collect()
     }
 
-    /// What a case loses of each goal. `None` if it has no performance.
+    /// Loss of each goal at a case. `None` if it has no performance.
     pub fn losses(&self, case: &Case) -> Option<Vec<Loss>> {
         let plain = self.study.without_epigraph();
         let values = plain.evaluate(&plain.coordinates(case)).ok()?;

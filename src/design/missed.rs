@@ -1,4 +1,4 @@
-//! Demands that no design was found to meet together with the rest, and what is reached of them.
+//! Demands that no design found meets together with the rest, and the values reached.
 
 use super::{
     measure::worst,
@@ -17,7 +17,7 @@ use crate::{
 pub struct Missed {
     /// Number of its term in the study.
     pub term: usize,
-    /// On what.
+    /// Index.
     pub index: Index,
     /// In which condition; `None` for the nominal one.
     pub condition: Option<String>,
@@ -27,7 +27,7 @@ pub struct Missed {
     pub reached: Option<f64>,
     /// Number of the group of demands that hold one another, from 0: the worst violated first.
     pub group: usize,
-    /// Share in the conflict: the shares of a group add up to one; 0 if it holds nothing.
+    /// Share in the conflict: the shares of a group add up to one; 0 for a demand that is not active.
     pub share: f64,
     /// True if any design variable changes the index.
     pub influenced: bool,
@@ -104,7 +104,7 @@ impl<'a> Reached<'a> {
         }
     }
 
-    /// As [`Reached::missed`], of a demand that holds nothing.
+    /// As [`Reached::missed`], of a demand without a share in the conflict.
     pub fn unheld(&self, study: &Study, [term, k]: [usize; 2], group: usize) -> Missed {
         let Role::Objective { origin, .. } = self.open.terms()[k].role else {
             unreachable!("the terms of a shortfall are objectives")

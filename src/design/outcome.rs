@@ -1,4 +1,4 @@
-//! What the design procedure hands over.
+//! Result of the design procedure.
 
 use rayon::prelude::*;
 
@@ -23,7 +23,7 @@ use crate::{
     spec::{Condition, Spec},
 };
 
-/// What one trade-off gave, or all at once.
+/// Result of one trade-off, or of all at once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StageResult {
     /// Which trade-off; `None` for all at once.
@@ -46,7 +46,7 @@ impl StageResult {
     }
 }
 
-/// The best that one of several wheel profiles allows.
+/// Best design with one of several wheel profiles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     /// λ.
@@ -67,7 +67,7 @@ pub struct Profile {
     pub(super) case: Case,
 }
 
-/// What the joint optimisation gained over the sequential one.
+/// Gain of the joint optimisation over the sequential one.
 #[derive(Debug, Clone)]
 pub struct Joint {
     /// Its solution.
@@ -146,7 +146,7 @@ pub struct DesignResult {
     pub case: Case,
     /// The case of the optimum, to which certificates and prices belong.
     pub optimum: Case,
-    /// What the design delivered loses of each goal against the optimum; empty if it is the optimum.
+    /// Loss of each goal of the design delivered against the optimum; empty if it is the optimum.
     pub losses: Vec<Loss>,
     /// The ranges over which the variables are free; empty where demands are missed.
     pub free: Vec<Free>,
@@ -164,26 +164,26 @@ pub struct DesignResult {
     pub stages: Vec<StageResult>,
     /// Rounds of the coupling loop; 0 for all at once.
     pub rounds: usize,
-    /// True if the last round changed nothing any more.
+    /// True if the last round changed no variable.
     pub settled: bool,
     /// The joint optimisation beside the sequential one.
     pub joint: Option<Joint>,
-    /// Every demand and what is reached.
+    /// Every demand and the value reached.
     pub margins: Vec<Margin>,
     /// Which demands conflict, where some are not met.
     pub conflict: Option<Conflict>,
-    /// What was spent in all.
+    /// Effort of all stages.
     pub effort: Effort,
     /// Why the run ended early, if it did.
     pub stopped: Option<Stop>,
 }
 
 impl DesignResult {
-    /// A spec's design as it stands, with nothing searched for.
+    /// Result for a spec's design as given, without a search.
     ///
     /// # Errors
     ///
-    /// [`EigenError`] if the eigenvalues of a model cannot be had.
+    /// [`EigenError`] if the eigenvalues of a model do not converge.
     pub fn as_given(spec: &Spec) -> Result<Self, EigenError> {
         let evaluation = Evaluation::new(&spec.case)?;
         Ok(Self {
@@ -208,7 +208,7 @@ impl DesignResult {
     }
 
     /// The largest relative loss of a goal against the optimum: of an index, or of a sum of relative
-    /// changes; 0 if the design delivered is the optimum or loses nothing.
+    /// changes; 0 if the design delivered is the optimum or has no loss.
     pub fn loss(&self) -> f64 {
         let losses = self.losses.iter().map(|loss| loss.share);
         losses.fold(0.0, f64::max)
@@ -224,14 +224,14 @@ impl DesignResult {
         self.free.iter().find(|free| free.parameter == parameter)
     }
 
-    /// True if the trade-offs in turn miss what the delivered design, all at once, meets or comes
-    /// closer to.
+    /// True if the trade-offs in turn miss a demand that the delivered design, all at once, meets or
+    /// comes closer to.
     pub fn joint_in_place_of_sequence(&self) -> bool {
         self.delivered == Delivered::AllAtOnce && self.joint.is_some()
     }
 
-    /// The stages that led to the design delivered; if that is the one as given, those that led to
-    /// no better one.
+    /// The stages that led to the design delivered; for the given design, the stages that found no better
+    /// one.
     pub fn delivered_stages(&self) -> impl Iterator<Item = &StageResult> {
         let is = |delivered| self.delivered == delivered;
         let joint = self.joint.as_ref().filter(|_| is(Delivered::AllAtOnce));

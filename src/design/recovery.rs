@@ -52,7 +52,7 @@ fn is_of_design(failure: Failure) -> bool {
 /// The study without the terms that fail at every design looked at, for a reason that another
 /// suspension would not mend.
 pub(super) fn with_values(study: &Study, start: &Start) -> Study {
-    /// Designs looked at beside those to begin from.
+    /// Number of designs looked at besides the starts.
     const OTHERS: usize = 4;
     let n = study.variables().len();
     let others = (1..=OTHERS).map(|i| halton(i, n));

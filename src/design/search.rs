@@ -19,8 +19,8 @@ use crate::optimize::{
 pub struct Searched {
     /// The study as asked. Terms that no design has a value of are left out.
     pub asked: Study,
-    /// The study in whose terms it is solved: the epigraph study where the critical speed is an
-    /// objective, with the bounds of missed demands relaxed to what can be reached.
+    /// Study of the solution: with the epigraph variable where the critical speed is an objective, and with
+    /// the bounds of missed demands relaxed to reachable values.
     pub study: Study,
     /// Its solution.
     pub solved: Solved,
@@ -47,11 +47,11 @@ impl Searched {
 }
 
 /// Solves a study. Where no design meets all demands, the solution is the [`compromise`]. With more
-/// conditions than [`MANY`](super::screened::MANY) it is searched through those that matter.
+/// conditions than [`MANY`](super::screened::MANY) it is searched in working conditions.
 ///
 /// # Errors
 ///
-/// [`NoDesign`] if not one design could be evaluated.
+/// [`NoDesign`] if no design could be evaluated.
 pub fn search(study: &Study, start: &Start, archive: &Archive) -> Result<Searched, NoDesign> {
     let solve = |study: &Study, start: &Start| search_in_all(study, start, archive).map(Some);
     let settled = match screened(study, start, archive, solve)? {

@@ -96,7 +96,7 @@ impl StageInput<'_> {
         let designs = std::iter::once(first).chain(self.also);
         let designs = designs.map(|case| study.coordinates(case)).collect();
         let start = match own {
-            // Everywhere was looked before for what comes nearest to the demands.
+            // A global search for the least violation was made before.
             Some(own) if own.status == Status::Infeasible && own.coverage.is_some() => {
                 Start::near(designs)
             }
@@ -161,7 +161,7 @@ pub fn solve(input: &StageInput, tasks: &Tasks, archive: &Archive) -> Result<Sta
     })
 }
 
-/// What is found for every profile; a run that has ended does not begin with another.
+/// Results for every profile; after the end of a run no further profile is begun.
 fn candidates(
     input: &StageInput,
     tasks: &Tasks,
@@ -250,7 +250,7 @@ impl Candidate {
     }
 }
 
-/// What the profile of a solved study allows.
+/// Best design with the profile of a solved study.
 fn profile(candidate: &Candidate) -> Profile {
     let Searched { study, solved, .. } = &candidate.searched;
     let case = study.design(&solved.point.x);
@@ -268,7 +268,7 @@ fn profile(candidate: &Candidate) -> Profile {
 }
 
 impl StageResult {
-    /// Adds what an earlier round spent, and profiles that it alone has looked at.
+    /// Adds the effort of an earlier round, and the profiles that only it searched.
     pub(super) fn absorb(&mut self, earlier: &Self) {
         self.explained.effort.add(&earlier.explained.effort);
         for profile in &earlier.profiles {

@@ -13,13 +13,13 @@ use crate::{
 pub struct Task {
     /// The trade-off; `None` for all at once.
     pub trade_off: Option<TradeOff>,
-    /// What is made as good as can be.
+    /// Goal.
     pub goal: String,
     /// The problem.
     pub study: Study,
 }
 
-/// What a spec asks for.
+/// Tasks of a spec.
 pub struct Tasks<'a> {
     space: &'a DesignSpace,
     objective: &'a [Goal],
@@ -81,7 +81,7 @@ impl<'a> Tasks<'a> {
     /// one of the profiles, and all rules applied.
     pub fn admissible(&self, given: &Case) -> Case {
         let mut case = given.clone();
-        // A rule may depend on what is set after it, and that on the next.
+        // A rule may depend on a value set after it.
         for _ in 0..=self.space.parameters.len().max(1) {
             for parameter in Parameter::ALL {
                 let Some(freedom) = self.space.freedom(parameter) else {
@@ -94,7 +94,7 @@ impl<'a> Tasks<'a> {
                     Freedom::Fixed(fixed) => *fixed,
                     Freedom::Tied { to, ratio } => ratio * to.get(&case),
                 };
-                // What is allowed already keeps its bits.
+                // An allowed value keeps its bits.
                 if (allowed - value).abs() > 0.0 {
                     parameter.set(&mut case, allowed);
                 }
@@ -118,8 +118,7 @@ impl<'a> Tasks<'a> {
         })
     }
 
-    /// Conicities of the profiles to choose from, the one at hand first: what it reaches tells
-    /// early which others have no hope. None to choose from: the case's own.
+    /// Conicities of the profiles to choose from, the present one first. Without a choice: the case's own.
     pub fn profiles(&self, case: &Case) -> Vec<f64> {
         let own = case.wheel_rail.conicity;
         let mut profiles = match self.space.freedom(Parameter::Conicity) {
@@ -130,7 +129,7 @@ impl<'a> Tasks<'a> {
         profiles
     }
 
-    /// What is asked in a condition, the nominal one being number 0.
+    /// Demands in a condition; the nominal one has number 0.
     pub(super) fn demands_in(&self, condition: usize) -> Demands {
         match condition.checked_sub(1) {
             None => self.demands.clone(),

@@ -30,7 +30,7 @@ use crate::{
 /// All performance indices of a case.
 #[derive(Debug, Clone)]
 pub struct Evaluation {
-    /// Critical speed and what hunts.
+    /// Critical speed and hunting modes.
     pub stability: Stability,
     /// Modes of the lateral model at the operating speed.
     pub modes: LateralModes,
@@ -42,11 +42,11 @@ pub struct Evaluation {
     pub service_curve: Result<ServiceCurve, CurvingError>,
     /// Lateral ride.
     pub lateral: Result<LateralRide, NoRide>,
-    /// What passengers feel of it at c.g., front, rear; `None` where there is none.
+    /// Lateral comfort measures at c.g., front, rear; `None` without a stationary response.
     pub lateral_passengers: Option<[PassengerRide; 3]>,
     /// Vertical ride.
     pub vertical: Result<VerticalRide, NoRide>,
-    /// What passengers feel of it at c.g., front, rear; `None` where there is none.
+    /// Vertical comfort measures at c.g., front, rear; `None` without a stationary response.
     pub vertical_passengers: Option<[PassengerRide; 3]>,
 }
 
@@ -55,7 +55,7 @@ impl Evaluation {
     ///
     /// # Errors
     ///
-    /// [`EigenError`] if the eigenvalues of a model cannot be had.
+    /// [`EigenError`] if the eigenvalues of a model do not converge.
     pub fn new(case: &Case) -> Result<Self, EigenError> {
         let lateral = LateralModel::new(case);
         let vertical = VerticalModel::new(case);

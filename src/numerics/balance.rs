@@ -2,21 +2,22 @@
 
 use nalgebra::DMatrix;
 
-/// Sweeps over the matrix; two or three are usual.
-const SWEEPS: usize = 100;
-/// Share of a row's and a column's sum of squares that a change must leave less than.
-const GAIN: f64 = 0.95;
+/// Limit on the sweeps over the matrix; two or three are usual.
+const MAX_SWEEPS: usize = 100;
+/// Ratio of a row's and a column's sum of squares after and before a change, above which the change is
+/// not made.
+const LEAST_GAIN: f64 = 0.95;
 
 /// Scales row and column i of a square matrix by 1/f and f, powers of two, for every i, until their
-/// norms without the diagonal are alike. Eigenvalues stay what they are; their error, which goes with
-/// the norm of the matrix, gets smaller.
+/// norms without the diagonal are alike. Eigenvalues do not change; their error, proportional to the
+/// norm of the matrix, becomes smaller.
 ///
 /// B. N. Parlett, C. Reinsch, *Balancing a matrix for calculation of eigenvalues and eigenvectors*,
 /// Numer. Math. 13 (1969), with the 2-norm. The scales leave the diagonal alone, so it is left out of
 /// the norms: the sum of all squares then falls with every change, and the process ends. With the
 /// diagonal in the norms it can go on for ever.
 pub(super) fn balance(a: &mut DMatrix<f64>) {
-    for _ in 0..SWEEPS {
+    for _ in 0..MAX_SWEEPS {
         let mut changed = false;
         for i in 0..a.nrows() {
             let diagonal = a[(i, i)];
@@ -26,7 +27,7 @@ pub(super) fn balance(a: &mut DMatrix<f64>) {
                 // f² = row norm over column norm, to the nearest power of two.
                 let f = ((row / column).log2() / 4.0).round().exp2();
                 let f2 = f * f;
-                if column * f2 + row / f2 < GAIN * (column + row) {
+                if column * f2 + row / f2 < LEAST_GAIN * (column + row) {
                     a.column_mut(i).scale_mut(f);
                     a.row_mut(i).scale_mut(1.0 / f);
                     changed = true;

@@ -112,7 +112,7 @@ struct Kept {
     /// From the journal of an earlier run, not yet asked for in this one.
     recorded: HashMap<Bits, Measured>,
     journal: Option<Journal>,
-    /// Measurements asked for in this run, those from the journal included.
+    /// Number of measurements asked for in this run, including those from the journal.
     spent: Spent,
     /// Evaluations expected in all.
     expected: usize,
@@ -156,7 +156,7 @@ impl<'a> Archive<'a> {
         }
     }
 
-    /// What was asked for through this handle.
+    /// Account of this handle.
     pub fn spent(&self) -> Spent {
         locked(&self.own).clone()
     }
@@ -208,7 +208,7 @@ impl<'a> Archive<'a> {
         let key = |x: &Vec<f64>| self.in_detail(problem.key(x), detail);
         let keys: Vec<Key> = designs.iter().map(key).collect();
         let bits: Vec<Bits> = keys.iter().map(Bits::from).collect();
-        // What is new is settled, in order, before anything runs side by side: count, budget and
+        // New measurements are counted, in order, before they run side by side: count, budget and
         // journal never depend on the threads.
         let mut new: Vec<(usize, Option<Measured>)> = Vec::new();
         let mut over_budget = false;
@@ -342,7 +342,7 @@ impl<'a> Archive<'a> {
 }
 
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // Nothing panics while it holds a lock.
+    // No code panics while it holds a lock.
     mutex
         .lock()
         .unwrap_or_else(std::sync::PoisonError::into_inner)

@@ -75,7 +75,7 @@ impl Basins {
         self.optima.len()
     }
 
-    /// What was found in each.
+    /// Best design of each.
     pub fn found(&self) -> impl Iterator<Item = &Found> {
         self.optima.iter().map(|o| &o.found)
     }

@@ -21,7 +21,7 @@ use super::{
 /// Curvature of the objective in the directions that the active limits leave open.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Curvature {
-    /// As many active limits and bounds as variables: nothing is left open.
+    /// As many active limits and bounds as variables: no direction is left open.
     Vertex,
     /// It rises in every direction left open; the least second derivative, scaled.
     Minimum(f64),
@@ -41,7 +41,7 @@ pub struct Certificate {
     pub objective_multipliers: Vec<Vec<f64>>,
     /// λ of every constraint piece.
     pub constraint_multipliers: Vec<f64>,
-    /// ν^u − ν^l: what the objective would gain by moving the bound out, per scaled length.
+    /// ν^u − ν^l: gain of the objective by moving the bound out, per scaled length.
     pub bound_multipliers: Vec<f64>,
     /// Gradients of the objective pieces.
     pub objective_gradients: Vec<Vec<DVector<f64>>>,
@@ -98,7 +98,7 @@ impl Certificate {
         })
     }
 
-    /// The certificate of a design without variables: nothing can be moved.
+    /// Certificate of a design without variables.
     pub(super) fn alone(values: &Values) -> Self {
         let zeros = |pieces: &Vec<super::problem::Piece>| vec![0.0; pieces.len()];
         Self {

@@ -160,7 +160,7 @@ impl<'a> Evaluations<'a> {
     }
 
     fn lock(&self) -> MutexGuard<'_, Vec<Point>> {
-        // Nothing panics while it holds the lock.
+        // No code panics while it holds the lock.
         self.points
             .lock()
             .unwrap_or_else(std::sync::PoisonError::into_inner)

@@ -49,7 +49,7 @@ pub enum JournalError {
     /// It records another run.
     #[error("it belongs to another spec or version of the program")]
     Foreign,
-    /// There is nothing to resume.
+    /// There is no journal to resume.
     #[error("there is no journal of an earlier run")]
     Missing,
     /// Another process is writing it.
@@ -80,7 +80,7 @@ impl Journal {
         if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
             std::fs::create_dir_all(folder)?;
         }
-        // Nothing is cut off before the lock is had.
+        // The file is truncated only under the lock.
         let mut options = File::options();
         let file = options
             .write(true)

@@ -351,7 +351,7 @@ impl Region<'_> {
             let here = surrogate.violation(&DVector::zeros(x.len()));
             let least = surrogate.violation(&minimise(feasibility, None)?.d);
             self.infeasible = here > FEASIBLE && here - least < self.verify_at.gain;
-            // Nine tenths of what feasibility alone would gain.
+            // Nine tenths of the gain in feasibility that is possible.
             let enough = (least + 0.1 * (here - least)).max(negligible);
             let mut penalty = self.penalty;
             while surrogate.violation(&step.d) > enough && penalty < HIGHEST_PENALTY {

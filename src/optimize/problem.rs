@@ -158,7 +158,7 @@ pub trait Problem: Sync {
     /// Name of the pieces with an index.
     fn piece_name(&self, index: usize) -> String;
 
-    /// Identifies what [`Problem::measure`] gives at x.
+    /// Key of the measurement at x.
     fn key(&self, x: &[f64]) -> Key {
         Key {
             what: String::new(),
@@ -178,7 +178,7 @@ pub trait Problem: Sync {
         false
     }
 
-    /// Objective and constraints from what was measured.
+    /// Objective and constraints from a measurement.
     fn judge(&self, measured: &[Piece]) -> Values;
 
     /// Measures and judges.

@@ -28,9 +28,9 @@ const DESIGNS_PER_VARIABLE: usize = 4;
 const FARTHEST_DESIGN: f64 = 0.5;
 
 impl Surrogate {
-    /// From the gradients of the pieces of `centre`, which must be known, and of what they have
-    /// become at the designs `around` it, which come with their distances, the nearest first. `None`
-    /// if a gradient at the centre is missing.
+    /// Surrogates from the gradients of the pieces of `centre` and of the same pieces at the designs
+    /// `around` it, given with their distances, the nearest first. `None` if a gradient at the centre is
+    /// missing.
     pub fn from_gradients(centre: &Point, around: &[(f64, Point)]) -> Option<Self> {
         let values = centre.values.as_ref().ok()?;
         let n = centre.x.len();

@@ -4,9 +4,9 @@
 //! m(d) = v + gᵀd + ½ dᵀH d,   min_{g,H} Σ_p w_p² (m(d_p) − v_p)² + μ² ‖H‖²
 //! ```
 //!
-//! All designs evaluated near the centre serve, whatever they were evaluated for. The error of a
-//! quadratic grows with the cube of the distance, and so does the weight fall: near designs decide
-//! the gradient, farther ones only what these leave open of the curvature. The small μ picks the
+//! All evaluated designs near the centre are used. The error of a quadratic grows with the cube of the
+//! distance, and the weight falls with it: near designs decide the gradient, farther ones only the
+//! curvature that the near ones leave open. The small μ picks the
 //! least curvature where the data determine none, as in Powell's minimum-norm models (Conn,
 //! Scheinberg, Vicente: *Introduction to Derivative-Free Optimization*, 2009, section 5.3).
 
@@ -192,7 +192,7 @@ impl Surrogate {
         let there = known.iter().map(|(_, v)| ByIndex::new(&v.constraints));
         let (here, there) = (ByIndex::new(&values.constraints), there.collect::<Vec<_>>());
         let constraints = values.constraints.iter().map(|piece| {
-            // A piece about to vanish that is far from its limit holds nothing back.
+            // A vanishing piece far from its limit stays inactive.
             fit_piece(piece, &here, &there)
                 .or_else(|| (piece.value < -SAME_LABEL).then(|| constant(piece.value)))
         });

@@ -200,7 +200,7 @@ impl Within<'_> {
         let goal = &self.goals[number];
         let zero = Piece {
             gradient: Some(vec![0.0; self.start.len()]),
-            // What the search lets pass lies on the right side of the bound.
+            // Values within the tolerance of the search lie on the right side of the bound.
             ..Piece::single(number + 1, FEASIBLE - goal.most)
         };
         let far = if goal.groups.len() > 1 {

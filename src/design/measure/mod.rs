@@ -50,8 +50,8 @@ impl std::fmt::Display for Wanted {
     }
 }
 
-/// Measures what is wanted of a case. The index of a [`Piece`] is that of the wheelset, limit or
-/// band it comes from, see [`piece_name`].
+/// Measures the wanted indices of a case. The index of a [`Piece`] is that of its wheelset, limit or
+/// band, see [`piece_name`].
 ///
 /// # Errors
 ///
@@ -79,9 +79,9 @@ pub fn measure_graded(
     measurement.run().into_iter().collect()
 }
 
-/// As [`measure`], for a verdict: with a result for each of what is wanted, as a case that is unstable
-/// at its speed has no lateral ride, but it has a critical speed; and without results where the model
-/// does not cover the service curve.
+/// As [`measure`], for a verdict: each index has a result of its own, because a case that is unstable at
+/// its speed has no lateral ride but a critical speed. Indices of a service curve that the model does not
+/// cover have no result.
 pub fn measure_each(case: &Case, wanted: &[Wanted]) -> Vec<Result<Vec<Piece>, Failure>> {
     Measurement::new(case, wanted, None, Purpose::Verdict).run()
 }
@@ -99,7 +99,7 @@ pub fn is_only_bounded(case: &Case, index: Index, value: f64) -> bool {
     }
 }
 
-/// Why an index has no pieces where its measurement did not fail.
+/// Reason why a successful measurement of an index has no pieces.
 pub fn absence(index: Index) -> Failure {
     if index.needs_service_curve() {
         Failure::NoServiceCurve
@@ -108,22 +108,22 @@ pub fn absence(index: Index) -> Failure {
     }
 }
 
-/// What a measurement is for.
+/// Purpose of a measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Purpose {
-    /// Nothing is of use unless all is there; beyond the models' limits their smooth extrapolation is.
+    /// A search: all indices or none; beyond the models' limits their smooth extrapolation.
     Search,
-    /// Each result is of use, and only what the models cover.
+    /// A verdict: every index by itself, only within the models' limits.
     Verdict,
 }
 
 type Measured = Result<Vec<Piece>, Failure>;
 
-/// A case and what is wanted of it.
+/// Measurement of the wanted indices of a case.
 struct Measurement<'a> {
     case: &'a Case,
     wanted: &'a [Wanted],
-    /// By which gradients are taken, if they are.
+    /// Constants of the gradients; `None`: values only.
     constants: Option<&'a Constants>,
     purpose: Purpose,
 }
@@ -143,7 +143,7 @@ impl<'a> Measurement<'a> {
         }
     }
 
-    /// The lateral model's indices beside those of the other models.
+    /// Indices of the lateral model, and indices of the other models.
     fn run(&self) -> Vec<Measured> {
         let numbered = self.wanted.iter().copied().enumerate();
         let status = OnceCell::new();
@@ -339,7 +339,7 @@ pub fn worst(index: Index, pieces: &[Piece]) -> Option<f64> {
 /// Bands kept apart by point.
 const BANDS: usize = 64;
 
-/// Name of a piece of what was wanted, to go behind the name of the index; empty if it is alone.
+/// Name of a piece, to follow the name of its index; empty for a single piece.
 pub fn piece_name(wanted: Wanted, piece: usize) -> String {
     let index = match wanted {
         Wanted::DampingTo { .. } => {

@@ -40,7 +40,7 @@ impl Filling {
 /// A pair of neighbouring points, by number, and their distance in shares of the front's extents.
 type Gap = (f64, [usize; 2]);
 
-/// Neighbouring points: of two indices those next to each other, of three every point and the one
+/// Pairs of neighbouring points: consecutive points of two indices; of three, every point with the point
 /// nearest to it.
 fn gaps(badness: &[Vec<f64>]) -> Vec<Gap> {
     let extents = extents(badness);

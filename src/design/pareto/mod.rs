@@ -1,11 +1,10 @@
 //! Pareto fronts between two or three indices by the ε-constraint method (Haimes, Lasdon, Wismer
-//! 1971): one index is made as good as can be while the others keep a bound, and the bounds sweep
-//! the front.
+//! 1971): one index is optimised while the others keep a bound, and the bounds sweep the front.
 //!
 //! The front is first *traced* from its ends, each point from its neighbours' designs and from the
 //! basins seen so far; then, in turn, *filled* where neighbouring points are far apart and
-//! *verified*: every point that is to stay is searched for everywhere, and what turns out better
-//! takes its place and is tried at the others.
+//! *verified*: every remaining point is searched for globally, and a better point replaces it and is
+//! tried at the others.
 //!
 //! Requirements and limits on the indices traded off are left out: the front shows them, and ends
 //! where `[pareto.bounds]` says.
@@ -38,7 +37,7 @@ use tracer::{Pool, Tracer};
 /// A front.
 #[derive(Debug, Clone)]
 pub struct Front {
-    /// What is traded off, in the order asked for.
+    /// Indices traded off, in the order asked for.
     pub indices: Vec<Index>,
     /// The parameters that vary, the conicity among them where it is chosen from profiles.
     pub parameters: Vec<Parameter>,
@@ -194,7 +193,7 @@ fn trace(tracers: &[Tracer], asked: usize) -> (Vec<FrontPoint>, Option<Failure>)
     (points, failure)
 }
 
-/// Makes the other indices of every point as good as they can be for next to nothing.
+/// Improves the other indices of every point at no more than a negligible loss.
 fn spare(tracers: &[Tracer], points: &mut [FrontPoint]) {
     for point in points.iter_mut().filter(|point| !point.is_spared) {
         tracers[point.profile].spare(point);

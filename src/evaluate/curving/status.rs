@@ -1,12 +1,12 @@
-//! True if the linear model covers a curve.
+//! Coverage of a curve by the linear model.
 
 use super::{Limit, first_exceedance};
 use crate::{
     dynamics::curving::{CurvingError, CurvingModel, Side},
-    index::MET,
+    evaluate::limits::MET,
 };
 
-/// True if the linear steady-curving model covers a curve. It ends at flange contact and at slip,
+/// Coverage of a curve by the linear steady-curving model. The model ends at flange contact and at slip,
 /// and needs load on every wheel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CurveStatus {

@@ -2,20 +2,20 @@
 //!
 //! The report keeps the damping ratio of this mode at 0.1–0.2 (4.7); its formula for the truck's critical
 //! speed holds the carbody likewise (3.5-6). The model is that of 3.4.4 with the carbody's coordinates
-//! held, so that none of its modes can be taken for hunting. One truck remains: 6 coordinates, 7 with
-//! roll. Of its motions s_k the least damped counts, with the damping of those outside the frequencies
-//! of kinematic motion raised the more the further they lie outside:
+//! held, so that no carbody mode can be confused with hunting. One truck remains: 6 coordinates, 7 with
+//! roll. The damping ratio is the least of its motions s_k, weighted by a factor w_k that grows with the
+//! distance of the motion's frequency from the band of kinematic motion:
 //!
 //! ```math
 //! ζ = min(1, min_k ζ_k w_k),   w_k = 1 + 8 p_k² if ζ_k > 0, else 1
 //! p_k = max(0, ln(f_low/f_k), ln(f_k/f_high)),   f_k = |s_k|/2π
 //! ```
 //!
-//! f_low and f_high are those of the rigid truck and of the free wheelset, half an octave apart
-//! ([`KinematicBand`]). An octave outside a motion counts with 4.8 times its damping, two octaves outside
-//! with 16 times. One that grows counts as it is, so that ζ < 0 exactly if a truck hunts under a carbody at
-//! rest. Only eigenvalues enter, which are continuous where eigenvectors are not. A motion without
-//! oscillation has ζ = 1.
+//! f_low is the frequency of the rigid truck, f_high that of the free wheelset, each moved outwards by half
+//! an octave ([`KinematicBand`]). The weight is 4.8 an octave outside the band and 16 two octaves outside.
+//! A growing motion has the weight 1, so that ζ < 0 exactly if a truck hunts under a carbody at rest. Only
+//! eigenvalues enter: they are continuous where eigenvectors are not. A motion without oscillation has
+//! ζ = 1.
 
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -44,8 +44,8 @@ pub struct KinematicBand {
 
 impl KinematicBand {
     /// From the rigid truck's kinematic frequency (3.5-5) over √2 to the free wheelset's (3.5-2)
-    /// times √2, at `speed` in m/s: a truck on springs lies between the two, give or take what
-    /// inertia and gravitational stiffness do.
+    /// times √2, at `speed` in m/s: a truck on springs lies between the two but for the effects of
+    /// inertia and gravitational stiffness.
     pub fn new(case: &Case, speed: f64) -> Self {
         let (vehicle, conicity) = (&case.vehicle, case.wheel_rail.conicity);
         Self {
@@ -129,7 +129,7 @@ impl KinematicMode {
     ///
     /// # Errors
     ///
-    /// [`EigenError`] if eigenvalues cannot be had.
+    /// [`EigenError`] if eigenvalues do not converge.
     pub fn new(model: &LateralModel, case: &Case, speed: f64) -> Result<Option<Self>, EigenError> {
         let band = KinematicBand::new(case, speed);
         let (_, truck) = model.one_truck(speed);
@@ -166,7 +166,8 @@ impl KinematicMode {
     }
 
     /// Derivatives of [`TruckMotion::damping_ratio`] by design constants, of every motion, at `speed`, m/s;
-    /// `band` has those of the logarithm of the band's frequencies. `None` if the vectors cannot be had.
+    /// `band` has the derivatives of the logarithm of the band's frequencies. `None` if the vectors are
+    /// not finite.
     pub fn derivatives(
         &self,
         model: &LateralModel,

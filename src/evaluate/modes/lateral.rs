@@ -1,4 +1,4 @@
-//! Modes of the lateral model at one speed, named by what moves.
+//! Modes of the lateral model at one speed, named by the moving bodies.
 
 use super::{KinematicBand, KinematicMode, Mode};
 use crate::{
@@ -10,11 +10,10 @@ use crate::{
     numerics::{EigenError, Poles, damping_ratio, frequency},
 };
 
-/// Damping ratio above which a pair counts as not oscillating: rounding decides whether it comes
-/// out as a pair or as two real roots.
+/// Damping ratio above which a pair counts as two real eigenvalues: rounding decides how it comes out.
 pub const OVERDAMPED: f64 = 0.999;
 
-/// What a mode of the lateral model does: a name to read, on which no number depends.
+/// Name of a mode of the lateral model, for readers: no number depends on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LateralShape {
     /// Carbody lateral and roll, turning about a point below its c.g.
@@ -60,7 +59,7 @@ pub struct LateralMode {
     pub frequency: f64,
     /// −Re s/|s|.
     pub damping_ratio: f64,
-    /// What it does.
+    /// Name.
     pub shape: LateralShape,
     /// Share of the kinetic energy in the carbody.
     pub carbody_share: f64,
@@ -77,8 +76,7 @@ pub struct LateralModes {
     pub real: Vec<f64>,
     /// True if a motion without oscillation grows.
     pub diverge: bool,
-    /// Hunting of a truck under a carbody at rest, whatever modes are named; `None` if it or the
-    /// vehicle diverges.
+    /// Hunting of a truck under a carbody at rest; `None` if the truck or the vehicle diverges.
     pub kinematic: Option<KinematicMode>,
 }
 
@@ -87,7 +85,7 @@ impl LateralModes {
     ///
     /// # Errors
     ///
-    /// [`EigenError`] if the mode shapes, or the eigenvalues of a truck, cannot be had.
+    /// [`EigenError`] if the mode shapes, or the eigenvalues of a truck, do not converge.
     pub fn new(model: &LateralModel, case: &Case, poles: &Poles) -> Result<Self, EigenError> {
         let mut modes = Self::of_vehicle(model, case, poles)?;
         if !modes.diverge {
@@ -100,7 +98,7 @@ impl LateralModes {
     ///
     /// # Errors
     ///
-    /// [`EigenError`] if the mode shapes cannot be had.
+    /// [`EigenError`] if the mode shapes do not converge.
     pub fn of_vehicle(
         model: &LateralModel,
         case: &Case,
@@ -142,7 +140,7 @@ impl LateralModes {
         Ok(modes)
     }
 
-    /// The least-damped oscillatory mode; `None` if the vehicle diverges, which no damping ratio tells.
+    /// The least-damped oscillatory mode; `None` if the vehicle diverges.
     pub fn least_damped(&self) -> Option<&LateralMode> {
         let modes = self.oscillatory.iter();
         modes
@@ -150,7 +148,7 @@ impl LateralModes {
             .min_by(|a, b| a.damping_ratio.total_cmp(&b.damping_ratio))
     }
 
-    /// Whether motions die away.
+    /// Stability at the speed.
     pub fn status(&self) -> AtSpeed {
         if self.diverge {
             AtSpeed::Diverges
@@ -161,18 +159,18 @@ impl LateralModes {
         }
     }
 
-    /// True if nothing grows.
+    /// True if every motion decays.
     pub fn stable(&self) -> bool {
         self.oscillatory.iter().all(|m| m.damping_ratio > 0.0) && self.real.iter().all(|&s| s < 0.0)
     }
 }
 
-/// True if the motions of a vehicle die away at one speed.
+/// Stability at one speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AtSpeed {
-    /// All do.
+    /// Every motion decays.
     Stable,
-    /// An oscillation grows, or something stays as it is.
+    /// An oscillation grows, or a coordinate drifts.
     Unstable,
     /// A motion without oscillation grows.
     Diverges,

@@ -1,4 +1,4 @@
-//! A mode of vibration: eigenvalue, shape, and what moves.
+//! A mode of vibration: eigenvalue, shape, and shares of kinetic energy.
 
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -15,12 +15,12 @@ pub struct Mode {
     pub left: DVector<Complex<f64>>,
 }
 
-/// Steps of inverse iteration: one is enough for an eigenvalue good to 1e-12, the second cleans.
-const STEPS: usize = 2;
+/// Number of steps of inverse iteration: one is enough for an eigenvalue accurate to 1e-12, the second
+/// removes the rest of other modes.
+const INVERSE_ITERATIONS: usize = 2;
 
 impl Mode {
-    /// Shape by inverse iteration at an eigenvalue found before. `None` if the matrix is not
-    /// finite.
+    /// Vectors by inverse iteration at a known eigenvalue. `None` if the matrix is not finite.
     pub fn at(system: &LinearSystem, damping: &DMatrix<f64>, s: Complex<f64>) -> Option<Self> {
         let n = system.order();
         // A shift off the eigenvalue by rounding keeps the factors regular.
@@ -28,10 +28,10 @@ impl Mode {
         let d = system.dynamic_stiffness(damping, shift);
         let adjoint = d.adjoint().lu();
         let lu = d.lu();
-        // Any start that is in no coordinate plane.
+        // A start vector in no coordinate plane.
         let start = DVector::from_fn(n, |i, _| Complex::new(1.0, 0.3 + 0.1 * i as f64));
         let (mut shape, mut left) = (start.clone(), start);
-        for _ in 0..STEPS {
+        for _ in 0..INVERSE_ITERATIONS {
             shape = normalised(&lu.solve(&shape)?)?;
             left = normalised(&adjoint.solve(&left)?)?;
         }

@@ -1,4 +1,4 @@
-//! Modes of the vertical model, named by what moves; they do not depend on the speed.
+//! Modes of the vertical model, named by the moving bodies; they do not depend on the speed.
 
 use super::{Mode, OVERDAMPED};
 use crate::{
@@ -6,7 +6,7 @@ use crate::{
     numerics::{EigenError, Poles, damping_ratio, frequency},
 };
 
-/// What a mode of the vertical model does.
+/// Name of a mode of the vertical model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VerticalShape {
     /// Carbody heave.
@@ -79,7 +79,7 @@ pub struct VerticalMode {
     pub frequency: f64,
     /// −Re s/|s|.
     pub damping_ratio: f64,
-    /// What it does: the motion with most of the kinetic energy.
+    /// Name: the motion with most of the kinetic energy.
     pub shape: VerticalShape,
 }
 
@@ -87,7 +87,7 @@ pub struct VerticalMode {
 ///
 /// # Errors
 ///
-/// [`EigenError`] if the mode shapes cannot be had.
+/// [`EigenError`] if the mode shapes are not finite.
 pub fn vertical_modes(
     model: &VerticalModel,
     poles: &Poles,
@@ -121,7 +121,7 @@ pub fn vertical_modes(
     Ok(modes)
 }
 
-/// How far a truck mode is from a flexible mode of the carbody.
+/// Separation of a truck mode from a flexible mode of the carbody.
 #[derive(Debug, Clone, Copy)]
 pub struct Separation {
     /// Frequency of the truck mode, Hz.
@@ -130,7 +130,7 @@ pub struct Separation {
     pub flexible: f64,
     /// The higher over the lower.
     pub ratio: f64,
-    /// What the two do.
+    /// Names of the two.
     pub shapes: [VerticalShape; 2],
 }
 

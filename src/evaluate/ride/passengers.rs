@@ -1,4 +1,4 @@
-//! What passengers feel: comfort indices and one-third-octave bands (3.3.4).
+//! Comfort of passengers: weighted accelerations and one-third-octave bands (3.3.4).
 
 use super::{
     panels::response_panels,
@@ -12,7 +12,7 @@ use crate::{
     numerics::{Poles, panels::divided, quadrature::Integrals},
 };
 
-/// What one passenger point feels in one direction.
+/// Comfort measures of one passenger point in one direction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PassengerRide {
     /// RMS acceleration, m/s².
@@ -134,8 +134,8 @@ impl Direction {
     }
 }
 
-/// Mean squares of the three accelerations as they are and with three weights, between edges: those
-/// of the one-third-octave bands, and others that resolve the response.
+/// Mean squares of the three accelerations, unweighted and with three weights, between the edges of the
+/// one-third-octave bands and of the panels.
 struct Spectra {
     integrals: Integrals,
     edges: Vec<f64>,

@@ -1,13 +1,12 @@
-//! Resonances so little damped that rounding decides how high they are.
+//! Resonances so lightly damped that rounding decides their height.
 //!
-//! A pole s of the dynamic stiffness D as stored is one of a D whose entries are rounded: to first order it
-//! lies within
+//! The entries of the stored dynamic stiffness D are rounded. To first order, a pole s of it lies within
 //!
 //! ```math
 //! δ = ε |w|ᵀ(|s|²M + |s||C| + |K|)|v| / |wᴴD′v|
 //! ```
 //!
-//! of where it belongs, ε being the rounding of a number (Tisseur 2000, *Backward error and condition of
+//! of the exact pole, ε being the rounding of a number (Tisseur 2000, *Backward error and condition of
 //! polynomial eigenvalue problems*, with the entries' own sizes as weights). Near the pole an output's
 //! response to an irregularity of density S is R/(iω − s), with R = (output of v)(wᴴ force)/(wᴴD′v), and
 //!
@@ -15,7 +14,7 @@
 //! ∫ |R|² S/|iω − s|² df = |R|² S/(2 |Re s|)
 //! ```
 //!
-//! is what it adds to the mean square, uncertain by the share δ/|Re s|.
+//! is its contribution to the mean square, uncertain by the share δ/|Re s|.
 
 use std::{f64::consts::TAU, ops::Range};
 
@@ -28,14 +27,14 @@ use crate::{
     numerics::{LinearSystem, Poles, damping_ratio, size},
 };
 
-/// Damping ratio above which rounding is not looked at: δ would have to be 10⁶ ε|s| for a share of
-/// [`LOST`].
-const DAMPED: f64 = 1e-6;
-/// Share of a mean square that rounding may decide: RMS values are then good to half of it.
-const LOST: f64 = 1e-4;
+/// Damping ratio above which rounding is neglected: δ would have to be 10⁶ ε|s| for a share of
+/// [`UNCERTAIN_SHARE`].
+const LIGHTLY_DAMPED: f64 = 1e-6;
+/// Share of a mean square that rounding may decide: RMS values are then accurate to half of it.
+const UNCERTAIN_SHARE: f64 = 1e-4;
 
-/// Whether rounding decides more than [`LOST`] of the mean square of any of some outputs of a model, the
-/// mean squares being those that `total` gives.
+/// True if rounding decides more than [`UNCERTAIN_SHARE`] of the mean square of any of some outputs of a
+/// model; `total` gives the mean squares.
 pub(super) fn decides(
     model: &ForcedModel,
     case: &Case,
@@ -45,7 +44,7 @@ pub(super) fn decides(
 ) -> bool {
     let [low, high] = case.model.frequency_band;
     let in_band = |s: &Complex<f64>| (low..=high).contains(&(s.im / TAU));
-    let lightly_damped = |s: &Complex<f64>| damping_ratio(*s).abs() < DAMPED && in_band(s);
+    let lightly_damped = |s: &Complex<f64>| damping_ratio(*s).abs() < LIGHTLY_DAMPED && in_band(s);
     let found = poles.values.iter().filter(|s| lightly_damped(s));
     let resonances = found.map(|s| Resonance::new(model, case.service.speed, *s));
     let mut uncertain = vec![0.0; outputs.len()];
@@ -58,10 +57,11 @@ pub(super) fn decides(
         }
     }
     let mut uncertain = uncertain.iter().enumerate();
-    uncertain.any(|(k, sum)| *sum > LOST * total(k))
+    uncertain.any(|(k, sum)| *sum > UNCERTAIN_SHARE * total(k))
 }
 
-/// True if all that grows does so by no more than rounding. What no damper touches stays as it is for sure.
+/// True if every growing mode grows by no more than rounding and is reached by a damper. A mode that no
+/// damper reaches certainly does not decay.
 pub(super) fn makes_grow(model: &ForcedModel, poles: &Poles) -> bool {
     let mut growing = poles.values.iter().filter(|s| s.re >= 0.0 && s.im >= 0.0);
     growing.all(|s| {
@@ -71,7 +71,7 @@ pub(super) fn makes_grow(model: &ForcedModel, poles: &Poles) -> bool {
     })
 }
 
-/// A lightly damped pole with what rounding makes of it.
+/// A lightly damped pole with its rounding error.
 struct Resonance {
     mode: Mode,
     /// wᴴD′v.
@@ -82,7 +82,7 @@ struct Resonance {
 }
 
 impl Resonance {
-    /// Of a model at `speed`, m/s, with a pole. `None` if its vectors cannot be had.
+    /// Of a model at `speed`, m/s, with a pole. `None` if its vectors are not finite.
     fn new(model: &ForcedModel, speed: f64, s: Complex<f64>) -> Option<Self> {
         let system = &model.system;
         let damping = system.damping_at(speed);
@@ -101,7 +101,7 @@ impl Resonance {
         })
     }
 
-    /// True if any damper is in reach of it.
+    /// True if a damper reaches it.
     fn is_damped(&self) -> bool {
         let (left, shape) = (&self.mode.left, &self.mode.shape);
         let n = shape.len();

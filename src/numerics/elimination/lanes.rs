@@ -22,8 +22,8 @@ pub struct Lanes {
     pub im: Reals,
 }
 
-/// Operations on real numbers lane by lane, in whole vectors. Without closures: one that is not
-/// compiled into its caller knows nothing of the vector unit.
+/// Operations on real numbers lane by lane, in whole vectors. Without closures, which are compiled for
+/// no vector unit unless they are inlined.
 macro_rules! lane_by_lane {
     ($($(#[$doc:meta])+ $name:ident($($of:ident),+) $operation:ident)+) => {$(
         $(#[$doc])+
@@ -62,7 +62,7 @@ lane_by_lane! {
     sqrt(a) sqrt_f64s
 }
 
-// What works on lanes must be compiled into its caller, where the vector unit is known.
+// Methods are inlined, because the vector unit is known in the caller.
 #[allow(clippy::inline_always)]
 impl Lanes {
     /// Zero in all lanes.
@@ -96,7 +96,7 @@ impl Lanes {
     pub fn on_unit_circle<S: Simd>(simd: S, angle: &Reals) -> Self {
         // Adding this leaves no room for digits after the point.
         const TO_WHOLE: f64 = 1.5 * (1_u64 << 52) as f64;
-        // What 2π in double precision leaves out.
+        // 2π less its double-precision value.
         const REST: f64 = 2.449_293_598_294_706_4e-16;
         let turns = mul_add(simd, angle, &[1.0 / TAU; LANES], &[TO_WHOLE; LANES]);
         let turns = add(simd, &turns, &[-TO_WHOLE; LANES]);

@@ -1,8 +1,8 @@
-//! Elimination in the order that the vehicle's structure suggests.
+//! Sparse Gauss elimination without pivoting, several frequencies side by side.
 //!
-//! A wheelset is tied to its truck, a truck to the carbody, and nothing else to one another. Gauss
-//! elimination from the wheelsets to the carbody therefore touches few entries: the pattern is
-//! worked out once for a model, and then run for many frequencies at once.
+//! Bodies that are coupled in chains give sparse matrices, and an elimination from the ends of the
+//! chains inwards fills few entries. The pattern is found once for a system and then run for many
+//! frequencies. Lanes that lose digits are marked; a pivoted factorisation answers for them.
 
 pub mod lanes;
 mod pattern;

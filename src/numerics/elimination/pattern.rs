@@ -1,13 +1,13 @@
-//! Which entries an elimination touches, and the elimination itself.
+//! Pattern of an elimination, and the elimination itself.
 
 use pulp::Simd;
 
 use super::lanes::{LANES, Lanes, Reals, abs, add, div, min, mul_subtracted};
 
-/// Order of pivots and entries to be worked on, for all matrices with nonzeros in the same places.
+/// Order of pivots and list of entries to be updated, for all matrices with the same nonzero entries.
 ///
-/// Pivots are diagonal entries, chosen beforehand for the least fill (Markowitz 1957); how good
-/// they were is told afterwards by [`Pattern::factor`].
+/// Pivots are diagonal entries, chosen beforehand for the least fill (Markowitz 1957);
+/// [`Pattern::factor`] reports lost digits afterwards.
 #[derive(Debug, Clone)]
 pub struct Pattern {
     order: usize,
@@ -17,7 +17,7 @@ pub struct Pattern {
     /// Entries below and right of the pivots.
     lower: Vec<Entry>,
     upper: Vec<Entry>,
-    /// Slots a of a −= l u, for each l below a pivot those of all u to its right.
+    /// Slots of the entries a in a −= l u, ordered by l and, for each l, by u.
     updates: Vec<u16>,
     count: usize,
 }
@@ -25,11 +25,11 @@ pub struct Pattern {
 /// All coordinates, as bits.
 pub const ALL: u32 = u32::MAX;
 
-/// Square of the share of a diagonal entry below which a pivot is too small: ten of sixteen digits
-/// remain.
-const LOST: f64 = 1e-12;
-/// Inverse pivots that are multiplied before the product is scaled: this many of the smallest, of a carbody
-/// at the highest frequencies, 1e-17, leave it far above the least number there is.
+/// Square of the ratio of a pivot to its original diagonal entry below which digits count as lost: ten of
+/// sixteen remain.
+const LEAST_PIVOT: f64 = 1e-12;
+/// Number of inverse pivots that are multiplied before the product is scaled: inverse pivots are above
+/// 1e-17, so that the product stays far above underflow.
 const UNSCALED: usize = 5;
 
 #[derive(Debug, Clone, Copy)]
@@ -131,12 +131,12 @@ impl Pattern {
         self.order
     }
 
-    /// Number of entries of a matrix, those that fill up included.
+    /// Number of entries of a matrix, fill included.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Where entry (i, j) is kept; `None` where it is always zero.
+    /// Slot of entry (i, j); `None` if it is always zero.
     pub fn slot(&self, i: usize, j: usize) -> Option<usize> {
         self.slots[i * self.order + j].map(usize::from)
     }
@@ -163,7 +163,7 @@ impl Pattern {
         let mut margin = [f64::INFINITY; LANES];
         for (pivot, size) in self.pivots.iter().zip(diagonal) {
             let left = a[pivot.slot].norm_sqr(simd);
-            let above = mul_subtracted(simd, &[LOST; LANES], size, &left);
+            let above = mul_subtracted(simd, &[LEAST_PIVOT; LANES], size, &left);
             margin = min(simd, &margin, &above);
             let inverse = a[pivot.slot].inverse(simd);
             a[pivot.slot] = inverse;

@@ -1,4 +1,4 @@
-//! Dynamic stiffness of a model, factored for several frequencies at once.
+//! Dynamic stiffness of a system, factored for several frequencies at once.
 
 use pulp::Simd;
 
@@ -13,12 +13,13 @@ use crate::numerics::LinearSystem;
 pub struct Stiffness {
     pattern: Pattern,
     entries: Vec<Entry>,
-    /// Slots that only elimination fills.
+    /// Slots of fill.
     empty: Vec<usize>,
-    /// Entries with mass, those with damping alone row by row, and those with damping that goes with
-    /// the speed.
+    /// Numbers of the entries with mass.
     massive: Vec<usize>,
+    /// Numbers of the entries with damping but no mass, row by row.
     damped: Vec<Vec<usize>>,
+    /// Numbers of the entries whose damping depends on the speed.
     by_speed: Vec<usize>,
 }
 
@@ -33,21 +34,21 @@ struct Entry {
     m: f64,
 }
 
-/// Room for the factors.
+/// Work space for the factors.
 #[derive(Debug, Clone)]
 pub struct Factors {
     a: Vec<Lanes>,
     /// C at the speeds set, entry by entry.
     damping: Vec<Reals>,
     diagonal: Vec<Reals>,
-    /// Lanes in which no digits were lost.
+    /// True for lanes in which no digits were lost.
     pub sound: [bool; LANES],
 }
 
 // Compiled into the caller, where the vector unit is known.
 #[allow(clippy::inline_always)]
 impl Stiffness {
-    /// Of a system.
+    /// Dynamic stiffness of a system.
     pub fn new(system: &LinearSystem) -> Self {
         let n = system.order();
         let [c0, c1, c2] = &system.damping;
@@ -100,7 +101,7 @@ impl Stiffness {
         self.pattern.order()
     }
 
-    /// Room for its factors.
+    /// Work space for its factors.
     pub fn factors(&self) -> Factors {
         Factors {
             a: vec![Lanes::ZERO; self.pattern.count()],
@@ -110,7 +111,7 @@ impl Stiffness {
         }
     }
 
-    /// Takes C at a speed `v`, m/s, in all lanes.
+    /// Sets C at a speed `v`, m/s, in all lanes.
     pub fn set_speed(&self, v: f64, factors: &mut Factors) {
         for &k in &self.by_speed {
             let [c0, c1, c2] = self.entries[k].c;
@@ -118,7 +119,7 @@ impl Stiffness {
         }
     }
 
-    /// Takes C at speeds `v`, m/s.
+    /// Sets C at speeds `v`, m/s.
     #[inline(always)]
     pub fn set_speeds<S: Simd>(&self, simd: S, v: &Reals, factors: &mut Factors) {
         let slowness = div(simd, &[1.0; LANES], v);
@@ -129,8 +130,8 @@ impl Stiffness {
         }
     }
 
-    /// About the largest |s| of an eigenvalue at the speed set in the first lane, rad/s: of a coordinate
-    /// alone.
+    /// Estimate of the largest |s| of an eigenvalue at the speed set in the first lane, rad/s: that of a
+    /// single coordinate.
     pub fn fastest(&self, factors: &Factors) -> f64 {
         let massive = self.massive.iter().map(|&k| {
             let (
@@ -165,7 +166,7 @@ impl Stiffness {
         factors.sound = self.pattern.factor(simd, a, diagonal);
     }
 
-    /// Coordinates that move when some do, as bits.
+    /// Coordinates that move when those in `by` do, all as bits.
     pub fn moved(&self, by: u32) -> u32 {
         let (mut moved, mut before) = (by, 0);
         while moved != before {
@@ -248,8 +249,8 @@ impl Stiffness {
         let mut sum = Lanes::ZERO;
         for &k in &self.by_speed {
             let Entry { row, column, c, .. } = self.entries[k];
-            let creep = mul(simd, &[c[1]; LANES], &slowness);
-            let c = mul_add(simd, &[c[2]; LANES], v, &creep);
+            let slow_part = mul(simd, &[c[1]; LANES], &slowness);
+            let c = mul_add(simd, &[c[2]; LANES], v, &slow_part);
             sum = sum.plus_scaled(simd, &c, &y[row].times(simd, &x[column]));
         }
         sum

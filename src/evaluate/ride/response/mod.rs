@@ -36,21 +36,21 @@ pub struct Response<'a> {
     excitations: Vec<Excited>,
 }
 
-/// One excitation: what it puts on the coordinates, what outputs it reaches, and the response.
+/// One excitation: its forces on the coordinates, the outputs, and the response.
 struct Excited {
     forces: Vec<Force>,
     /// Coordinates that it moves, as bits: in a symmetric model not all.
     moved: u32,
     outputs: Vec<OutputTerms>,
     q: Vec<Lanes>,
-    /// `None`: nothing changes.
+    /// By design constant; `None`: no change.
     tangents: Vec<Option<Tangent>>,
     /// Derivative of q, and the outputs.
     dq: Vec<Lanes>,
     transfers: Vec<Lanes>,
 }
 
-/// What a design constant changes for an excitation.
+/// Changes by a design constant in the response to an excitation.
 struct Tangent {
     forces: Vec<Force>,
     couplings: Vec<Coupling>,
@@ -188,7 +188,8 @@ impl<'a> Response<'a> {
         }
     }
 
-    /// Goes over the frequencies at which the elimination lost digits; derivatives are left as they are.
+    /// Replaces the densities at frequencies at which the elimination lost digits by the plain ones;
+    /// derivatives stay.
     #[cold]
     fn mend(&self, f: &Reals, densities: &mut [Reals]) {
         let mut plain = vec![0.0; self.model.outputs.len()];
@@ -304,7 +305,7 @@ fn transmitted<S: Simd>(simd: S, k: f64, c: f64, omega: &Reals) -> Lanes {
     }
 }
 
-/// Adds what the irregularity under the wheelsets puts on the coordinates.
+/// Adds the forces of the irregularity under the wheelsets on the coordinates.
 #[allow(clippy::inline_always)] // Compiled into the caller, where the vector unit is known.
 #[inline(always)]
 fn add_forces<S: Simd>(

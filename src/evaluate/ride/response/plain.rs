@@ -1,5 +1,5 @@
-//! The response by a dense pivoted factorisation, one frequency at a time: what the elimination is
-//! tested against, and where it loses digits.
+//! The plain response: a dense pivoted factorisation, one frequency at a time. The elimination is tested
+//! against it, and steps aside for it at frequencies at which it loses digits.
 
 use std::f64::consts::TAU;
 

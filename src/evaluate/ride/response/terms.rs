@@ -24,7 +24,7 @@ pub(super) struct Force {
     pub c: f64,
 }
 
-/// All of an excitation's at a speed, m/s.
+/// All forces of an excitation at a speed, m/s.
 pub(super) fn forces(system: &LinearSystem, excitation: &Excitation, speed: f64) -> Vec<Force> {
     let [c0, c1, c2] = &system.damping;
     let mut forces = Vec::new();
@@ -55,8 +55,8 @@ pub(super) struct Coupling {
     pub c: f64,
 }
 
-/// What a tangent of the system adds on the right side, at a speed, m/s: from the irregularity of an
-/// excitation, and from the motion of the coordinates.
+/// Terms of a tangent of the system on the right side, at a speed, m/s: forces of the irregularity of an
+/// excitation, and couplings between the coordinates.
 pub(super) fn tangents(
     tangent: &SystemTangent,
     order: usize,
@@ -85,7 +85,7 @@ pub(super) fn tangents(
     (forces, couplings)
 }
 
-/// Where a term of an output comes from.
+/// Source of a term of an output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Source {
     /// A coordinate.

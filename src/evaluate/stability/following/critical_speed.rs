@@ -7,8 +7,8 @@ use crate::{
     numerics::Poles,
 };
 
-/// Relative distances below the lowest onset's speed at which the mode count must find nothing that
-/// grows; the first at which the count is conclusive decides.
+/// Relative distances below the lowest onset's speed at which the mode count must find no growing mode;
+/// the first at which the count is conclusive decides.
 const CONFIRMED_BELOW: [f64; 2] = [1e-5, 1e-4];
 
 impl Stability {
@@ -70,7 +70,7 @@ impl Stability {
     }
 }
 
-/// True if nothing grows just below the lowest of some onsets; false if there is none.
+/// True if no mode grows just below the lowest of some onsets; false without onsets.
 fn stable_below_lowest(modes: &mut FollowedModes<'_>, onsets: &[Event]) -> bool {
     let lowest = onsets
         .iter()

@@ -26,8 +26,6 @@ pub enum EventKind {
 /// An event found.
 #[derive(Debug, Clone)]
 pub struct Event {
-    /// Kind.
-    pub kind: EventKind,
     /// Eigenvalue and speed.
     pub at: Eigenvalue,
     /// Shape and left vector; `None` if they are not finite.
@@ -119,7 +117,6 @@ impl Bracket {
             };
         } else {
             self.found = Some(Event {
-                kind: self.kind,
                 at: finished(self.kind, &known)?,
                 mode: mode(),
             });

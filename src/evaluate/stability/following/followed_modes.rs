@@ -292,7 +292,7 @@ impl<'m> FollowedModes<'m> {
         (next, if fine { deviation } else { f64::INFINITY })
     }
 
-    /// True if nothing grows at a speed, m/s, just below the onset of a mode, whose eigenvalue there is
+    /// True if no mode grows at a speed, m/s, just below the onset of a mode, whose eigenvalue there is
     /// `known`: by the mode count. `None` if the count is inconclusive.
     pub fn stable_at(&mut self, speed: f64, known: Complex<f64>) -> Option<bool> {
         let modes = self.modes_near(speed, known);
@@ -326,7 +326,7 @@ impl<'m> FollowedModes<'m> {
         let mut modes = vec![one];
         for s in lanes.into_iter().map(|(l, _)| pairs.s.lane(l)) {
             let is_new = |known: &Complex<f64>| size(*known - s) > SAME_EIGENVALUE * size(s);
-            if s.is_finite() && s.im > 0.0 && modes.iter().are_all(is_new) {
+            if s.is_finite() && s.im > 0.0 && modes.iter().all(is_new) {
                 modes.push(s);
             }
         }

@@ -128,7 +128,7 @@ impl Stability {
         Ok(())
     }
 
-    /// Adds onsets until nothing grows just below the lowest.
+    /// Adds onsets until every motion decays just below the lowest.
     fn certify(&mut self, model: &LateralModel, first: &Spectrum) -> Result<(), EigenError> {
         for _ in 0..MAX_BISECTIONS {
             let Some(lowest) = self.onsets.first() else {
