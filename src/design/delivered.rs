@@ -153,10 +153,10 @@ fn power_of_stiffness(parameter: Parameter) -> Option<f64> {
 /// A case in which every constant that is as given but for rounding has the bits as given.
 fn with_bits_of(given: &Case, mut case: Case) -> Case {
     /// From a constant to a scaled coordinate and back, through frequencies and damping ratios.
-    const ROUNDING: f64 = 1e-12;
+    const CONSTANT_ROUNDING: f64 = 1e-12;
     for constant in Parameter::TEN {
         let (own, kept) = (constant.get(&case), constant.get(given));
-        if (own - kept).abs() <= ROUNDING * kept.abs() {
+        if (own - kept).abs() <= CONSTANT_ROUNDING * kept.abs() {
             constant.set(&mut case, kept);
         }
     }

@@ -28,12 +28,12 @@ use crate::{
     parameter::Parameter,
 };
 
-/// Scaled coordinates this close to an end of their range are at it.
+/// Scaled distance from an end of a range within which a coordinate is at it.
 const AT_BOUND: f64 = 1e-6;
-/// Rounding of a logarithm over that of another, which keeps a coordinate off an end of its range.
-const ROUNDING: f64 = 1e-12;
-/// Ends that differ by less than this, scaled, are the same.
-const SAME: f64 = 1e-4;
+/// Rounding of a scaled coordinate: the ratio of two logarithms.
+const COORDINATE_ROUNDING: f64 = 1e-12;
+/// Scaled distance within which two ends are the same.
+const SAME_END: f64 = 1e-4;
 
 /// An end of the range over which a variable is free.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -148,7 +148,7 @@ impl Neighbourhood {
         let x: Vec<f64> = study
             .coordinates(case)
             .into_iter()
-            .map(|x| onto_bound(x, ROUNDING))
+            .map(|x| onto_bound(x, COORDINATE_ROUNDING))
             .collect();
         let values = study.evaluate(&x).or_else(|failure| {
             study = with_values(&study, &Start::near(vec![x.clone()]));
@@ -241,7 +241,7 @@ impl Neighbourhood {
                 };
                 let verified = ends[k]
                     .as_ref()
-                    .is_some_and(|end| end.is_optimal && (end.x[i] - x).abs() <= SAME);
+                    .is_some_and(|end| end.is_optimal && (end.x[i] - x).abs() <= SAME_END);
                 let bound = if k == 0 { x } else { 1.0 - x };
                 End {
                     value: self.study.variables()[i].value(x),

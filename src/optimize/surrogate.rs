@@ -43,6 +43,8 @@ pub(super) struct Surrogate {
 
 /// Difference of the labels of two pieces of one index below which they may be the same piece.
 const SAME_LABEL: f64 = 0.2;
+/// Distance of a constraint piece below its limit from which it is far from it.
+const FAR_FROM_LIMIT: f64 = 0.2;
 /// Largest distance, in radii, of a design that is used.
 const FARTHEST_DESIGN: f64 = 30.0;
 /// Number of designs used per coefficient of a quadratic.
@@ -194,7 +196,7 @@ impl Surrogate {
         let constraints = values.constraints.iter().map(|piece| {
             // A vanishing piece far from its limit stays inactive.
             fit_piece(piece, &here, &there)
-                .or_else(|| (piece.value < -SAME_LABEL).then(|| constant(piece.value)))
+                .or_else(|| (piece.value < -FAR_FROM_LIMIT).then(|| constant(piece.value)))
         });
         let constraints = constraints.collect::<Option<Vec<_>>>()?;
         Some(Self {
