@@ -5,8 +5,13 @@
 //! [`numerics`] solves matrices and has never heard of a train. [`evaluate`] turns solutions into
 //! indices; every fast method answers or steps aside for its plain twin in the next folder.
 //! [`design`] finds the suspension that is best within given limits, with the search of
-//! [`optimize`]. [`export`] writes results, [`report`] a page of them. [`closed_form`] and
-//! [`comfort`] hold the report's hand formulas and the comfort standards' weightings.
+//! [`optimize`], which knows no rail either. [`chart`] draws the report's charts with [`plot`],
+//! [`export`] writes results, [`report`] a page of them. [`closed_form`] and [`comfort`] hold the
+//! report's hand formulas and the comfort standards' weightings.
+//!
+//! No module imports one above it: [`units`], [`track`], [`wheel_rail`], [`vehicle`], [`case`],
+//! [`numerics`], [`dynamics`], [`closed_form`], [`comfort`], [`parameter`], [`evaluate`], [`index`],
+//! [`failure`], [`optimize`], [`spec`], [`design`], [`plot`], [`chart`], [`export`], [`report`].
 //!
 //! Everything is in SI units; [`units`] live at the boundary.
 //!
@@ -35,6 +40,7 @@ pub mod index;
 pub mod numerics;
 pub mod optimize;
 pub mod parameter;
+pub mod plot;
 pub mod report;
 pub mod spec;
 pub mod track;

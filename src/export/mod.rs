@@ -8,6 +8,7 @@ pub mod design_json;
 pub mod design_text;
 pub mod evaluation_json;
 pub(crate) mod evaluation_text;
+pub mod figure;
 pub mod file;
 pub(crate) mod freedom;
 pub mod modes;

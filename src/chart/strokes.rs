@@ -3,13 +3,13 @@
 
 use super::{Entry, performance::lateral_ride, sweep::Sweep, workbook::Workbook};
 use crate::{
-    chart::{Axis, Curve, Direction, Family, Figure, Limit, Mark, Panel, Scale, Shade, Stroke},
     evaluate::{
         limits::{EXCURSION, PEAK, PRIMARY_STOP, SECONDARY_STOP},
         ride::LateralRide,
     },
     index::Index,
     parameter::Parameter,
+    plot::{Axis, Curve, Direction, Family, Figure, Limit, Mark, Panel, Scale, Shade, Stroke},
     units::Quantity,
 };
 

@@ -4,9 +4,7 @@ use super::{
     performance::lateral_ride,
     workbook::{CONICITY_RANGE, Workbook},
 };
-use crate::{
-    chart::Scale, evaluate::ride::LateralRide, parameter::Parameter, wheel_rail::PROFILES,
-};
+use crate::{evaluate::ride::LateralRide, parameter::Parameter, plot::Scale, wheel_rail::PROFILES};
 
 /// Lateral rides over the values of something.
 pub struct Sweep {

@@ -6,11 +6,11 @@ use super::{
 };
 use crate::{
     case::Case,
-    chart::{
+    parameter::Parameter,
+    plot::{
         Axis, Field, Layer,
         contour::{Jump, Side},
     },
-    parameter::Parameter,
     units::us,
 };
 

@@ -10,9 +10,9 @@ use super::{
 };
 use crate::{
     case::Case,
-    chart::{Axis, Curve, Direction, Family, Figure, Mark, Panel, Stroke},
     index::Index,
     parameter::Parameter,
+    plot::{Axis, Curve, Direction, Family, Figure, Mark, Panel, Stroke},
     units::{
         Quantity,
         us::{FOOT, LBF},

@@ -8,10 +8,6 @@ use super::{
     workbook::{CONICITIES, Workbook},
 };
 use crate::{
-    chart::{
-        Curve, Dash, Direction, Family, Figure, Ink, Limit, Mark, Panel, Scale, Shade, Stroke,
-        Symbol, System, Unit, Weight,
-    },
     dynamics::curving::lifting_cant_deficiency,
     evaluate::{
         curving::{CurvingLimits, Limit as CurveLimit, LimitedCurve},
@@ -19,6 +15,10 @@ use crate::{
     },
     index::Index,
     parameter::Parameter,
+    plot::{
+        Curve, Dash, Direction, Family, Figure, Ink, Limit, Mark, Panel, Scale, Shade, Stroke,
+        Symbol, System, Unit, Weight,
+    },
     track::{MAX_DEGREE, SUPERELEVATION_BASE},
     units::us::INCH,
 };
@@ -42,8 +42,8 @@ pub(super) fn height(system: System, height: f64) -> String {
 }
 
 /// An axis of the degree curve, degrees of curve in the data as elsewhere.
-pub(super) fn degree_axis(range: [f64; 2]) -> crate::chart::Axis {
-    crate::chart::Axis::new(
+pub(super) fn degree_axis(range: [f64; 2]) -> crate::plot::Axis {
+    crate::plot::Axis::new(
         "degree curve",
         "D",
         "degree_curve_deg",
@@ -83,7 +83,7 @@ pub(super) fn boundary(book: &Workbook, entry: &Entry) -> Figure {
         .map(|p| p[0])
         .fold(0.5, f64::max);
     let x = degree_axis([0.0, (1.15 * largest).min(MAX_DEGREE)]).rounded();
-    let y = crate::chart::Axis::new(
+    let y = crate::plot::Axis::new(
         "cant deficiency",
         "φ_d",
         "cant_deficiency_rad",

@@ -200,7 +200,7 @@ pub(super) fn base_line(size: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chart::{Axis, Curve, Family, Panel, Scale, Stroke, Unit};
+    use crate::plot::{Axis, Curve, Family, Panel, Scale, Stroke, Unit};
 
     #[test]
     fn frames_stand_beside_and_below_each_other_without_overlap() {

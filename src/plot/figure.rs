@@ -1,4 +1,4 @@
-//! Figures: what a chart shows, without how it is drawn.
+//! Figures: the content of a chart, without its layout.
 
 use serde::Serialize;
 
@@ -7,15 +7,15 @@ use super::{Axis, Family, Field, Limit, Mark, Shade};
 /// A chart of one or more panels.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Figure {
-    /// Number in the report, or numbers where it prints the chart twice.
+    /// Figure number, or several.
     pub number: String,
     /// Name, as commands and files have it.
     pub name: String,
-    /// What it shows.
+    /// Title.
     pub title: String,
-    /// Of which vehicle, under what conditions.
+    /// Case and conditions shown.
     pub subtitle: String,
-    /// What it shows, in words, for those who cannot see it.
+    /// Content in words, for readers who cannot see it.
     pub description: String,
     /// Side by side from the left, then downwards.
     pub panels: Vec<Panel>,

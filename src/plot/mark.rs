@@ -8,7 +8,7 @@ use super::Ink;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Symbol {
-    /// The design of the spec.
+    /// The chosen point, a disc in a ring.
     Design,
     /// A disc.
     Disc,
@@ -46,7 +46,7 @@ impl Mark {
         }
     }
 
-    /// The design of the spec.
+    /// The chosen point, labelled as the design.
     pub fn design(at: [f64; 2]) -> Self {
         Self::new(at, Symbol::Design, Ink::Vermilion, "design")
     }

@@ -1,4 +1,4 @@
-//! Axes: what is measured along them, in which units, over which range.
+//! Axes: quantity, units, scale and range.
 
 use serde::Serialize;
 
@@ -33,11 +33,11 @@ impl From<DisplayUnit> for Unit {
     }
 }
 
-/// Which system of units comes first on a chart.
+/// System of units that comes first on a chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum System {
-    /// US customary units, as on the report's charts.
+    /// US customary units.
     #[default]
     Us,
     /// SI units.

@@ -4,9 +4,9 @@ use super::{
     Entry, curving::degree_axis, performance::degree_curve, sampling::sample, workbook::Workbook,
 };
 use crate::{
-    chart::{Curve, Direction, Family, Figure, Mark, Panel, Scale, Stroke},
     index::Index,
     parameter::Parameter,
+    plot::{Curve, Direction, Family, Figure, Mark, Panel, Scale, Stroke},
     units::us::{FOOT, LBF},
 };
 

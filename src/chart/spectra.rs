@@ -9,14 +9,14 @@ use super::{
 };
 use crate::{
     case::Case,
-    chart::{
-        Axis, Curve, Dash, Direction, Family, Figure, Ink, Panel, Scale, Shade, Stroke, Unit,
-        Weight,
-    },
     comfort::iso_boundary,
     dynamics::{ForcedModel, LateralModel, VerticalModel, lateral, vertical},
     evaluate::ride::{mean_squares_between, response::Response},
     numerics::elimination::LANES,
+    plot::{
+        Axis, Curve, Dash, Direction, Family, Figure, Ink, Panel, Scale, Shade, Stroke, Unit,
+        Weight,
+    },
     vehicle::GRAVITY,
 };
 

@@ -4,8 +4,8 @@ use num_complex::Complex64;
 
 use super::{Entry, comfort::frequency_axis, value::number, workbook::Workbook};
 use crate::{
-    chart::{Axis, Curve, Family, Figure, Labels, Panel, Scale, Stroke, Unit},
     parameter::Parameter,
+    plot::{Axis, Curve, Family, Figure, Labels, Panel, Scale, Stroke, Unit},
 };
 
 /// |z̈/u| in 1/s² (4.3-1) and |z_r/u| (4.3-2) at frequency `f`, for f_n in Hz and ξ.

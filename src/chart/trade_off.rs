@@ -9,10 +9,10 @@ use super::{
     workbook::Workbook,
 };
 use crate::{
-    chart::{Axis, Curve, Dash, Direction, Family, Figure, Ink, Limit, Mark, Panel, Scale, Stroke},
     evaluate::limits::SECONDARY_STOP,
     index::Index,
     parameter::Parameter,
+    plot::{Axis, Curve, Dash, Direction, Family, Figure, Ink, Limit, Mark, Panel, Scale, Stroke},
     units::Quantity,
 };
 

@@ -7,11 +7,11 @@ use super::{
     workbook::{MPH, Workbook},
 };
 use crate::{
-    chart::{
+    evaluate::limits::CANT_DEFICIENCY,
+    plot::{
         Axis, Curve, Dash, Direction, Family, Figure, Ink, Panel, Scale, Shade, Stroke, System,
         Weight,
     },
-    evaluate::limits::CANT_DEFICIENCY,
     track::{SUPERELEVATION_BASE, cant_deficiency, curvature_of_degree, fra_speed_limit},
     units::{Quantity, us::INCH},
 };

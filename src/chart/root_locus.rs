@@ -11,13 +11,13 @@ use super::{
     workbook::{MPH, Workbook},
 };
 use crate::{
-    chart::{
-        Axis, Curve, Dash, Direction, Family, Figure, Ink, Labels, Mark, Panel, Scale, Stroke,
-        Symbol, Unit, Weight,
-    },
     index::Index,
     numerics::{damping_ratio, frequency},
     parameter::Parameter,
+    plot::{
+        Axis, Curve, Dash, Direction, Family, Figure, Ink, Labels, Mark, Panel, Scale, Stroke,
+        Symbol, Unit, Weight,
+    },
     units::Quantity,
 };
 

@@ -10,11 +10,9 @@ use super::{
     workbook::{CONICITIES, MPH, Workbook},
 };
 use crate::{
-    chart::{
-        Axis, Curve, Dash, Direction, Family, Field, Figure, Ink, Mark, Panel, Stroke, Weight,
-    },
     index::Index,
     parameter::Parameter,
+    plot::{Axis, Curve, Dash, Direction, Family, Field, Figure, Ink, Mark, Panel, Stroke, Weight},
     units::Quantity,
 };
 

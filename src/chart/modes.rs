@@ -4,11 +4,11 @@ use super::{
     Entry, comfort::frequency_axis, performance::lateral_modes, value::number, workbook::Workbook,
 };
 use crate::{
-    chart::{Axis, Curve, Family, Figure, Ink, Labels, Mark, Panel, Scale, Stroke, Symbol, Unit},
     dynamics::{LateralModel, VerticalModel},
     evaluate::modes::{LateralShape, OVERDAMPED, VerticalShape, vertical_modes},
     numerics::Poles,
     parameter::Parameter,
+    plot::{Axis, Curve, Family, Figure, Ink, Labels, Mark, Panel, Scale, Stroke, Symbol, Unit},
 };
 
 /// A mode to be shown.

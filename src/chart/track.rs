@@ -2,7 +2,7 @@
 
 use super::{Entry, workbook::Workbook};
 use crate::{
-    chart::{Curve, Dash, Family, Figure, Ink, Panel, Scale, Stroke, Weight},
+    plot::{Curve, Dash, Family, Figure, Ink, Panel, Scale, Stroke, Weight},
     track::{FRA_CLASSES, Spectrum, Track},
     units::{Quantity, us::FOOT},
 };

@@ -6,11 +6,11 @@ use super::{
     workbook::Workbook,
 };
 use crate::{
-    chart::{Axis, Curve, Dash, Family, Figure, Ink, Labels, Panel, Scale, Stroke, Unit, Weight},
     comfort::{iso_boundary, third_octave},
     dynamics::{ForcedModel, LateralModel, VerticalModel, lateral, vertical},
     evaluate::ride::{BandRide, PassengerRide, mean_squares_between},
     numerics::Poles,
+    plot::{Axis, Curve, Dash, Family, Figure, Ink, Labels, Panel, Scale, Stroke, Unit, Weight},
     units::Quantity,
 };
 

@@ -1,7 +1,7 @@
 //! Curves sampled where they bend, and broken where they jump.
 
 use super::workbook::Workbook;
-use crate::chart::Scale;
+use crate::plot::Scale;
 
 /// Points to begin with.
 const FIRST: usize = 33;
@@ -99,7 +99,7 @@ fn broken(scale: Scale, points: Vec<[f64; 2]>, smallest: f64) -> Vec<[f64; 2]> {
 mod tests {
     use super::*;
     use crate::{
-        chart::{Curve, System},
+        plot::{Curve, System},
         spec::{STARTER, Spec},
     };
 

@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use super::{sweep::Sweep, value::written};
 use crate::{
     case::Case,
-    chart::{Axis, Direction, Layer, Limit, Mark, Scale, System, Unit},
     index::Index,
     parameter::Parameter,
+    plot::{Axis, Direction, Layer, Limit, Mark, Scale, System, Unit},
     spec::Spec,
     units::{DisplayUnit, Quantity, us},
     wheel_rail::CONICITY_MAX,

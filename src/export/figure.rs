@@ -1,7 +1,9 @@
 //! The numbers behind a figure, as tables in SI units.
 
-use super::{Axis, Figure, Panel};
-use crate::export::table::Table;
+use crate::{
+    export::table::Table,
+    plot::{Axis, Figure, Panel, Text},
+};
 
 /// A table for every panel, with the panel's name.
 pub fn tables(figure: &Figure) -> Vec<(String, Table)> {
@@ -34,7 +36,7 @@ fn curves(panel: &Panel) -> Table {
     let mut rows: Vec<(&str, String, Option<f64>, [f64; 2])> = Vec::new();
     for family in &panel.families {
         for curve in &family.curves {
-            let label = super::Text::new(&curve.label).plain();
+            let label = Text::new(&curve.label).plain();
             rows.extend(
                 curve
                     .points()

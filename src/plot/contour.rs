@@ -4,9 +4,8 @@
 //! the side, equals the level. In a saddle, where all four sides are crossed, the mean of the
 //! corners decides which pair. The pieces of all cells are joined into lines.
 //!
-//! Where the value jumps on a side, as a critical speed does where another mode becomes the first to
-//! lose its damping, it is linear on either side of the jump, and every level between runs through
-//! it.
+//! Where the value jumps on a side, as the least of several functions may, it is linear on either side
+//! of the jump, and every level between runs through it.
 
 use std::collections::HashMap;
 
@@ -46,7 +45,7 @@ impl Jump {
 /// y_j; cells with a value that is not finite are left out. A closed line ends where it begins.
 ///
 /// ```
-/// use bogie::chart::contour::contour;
+/// use bogie::plot::contour::contour;
 ///
 /// let lines = contour(&[0.0, 1.0], &[0.0, 1.0], &[0.0, 1.0, 0.0, 1.0], &[], 0.25);
 /// assert_eq!(lines, [[[0.25, 0.0], [0.25, 1.0]]]);
