@@ -82,7 +82,7 @@ struct Resonance {
 }
 
 impl Resonance {
-    /// Of a model at `speed`, m/s, with a pole. `None` if its vectors are not finite.
+    /// Resonance of a model at `speed`, m/s, at a pole. `None` if its vectors are not finite.
     fn new(model: &ForcedModel, speed: f64, s: Complex<f64>) -> Option<Self> {
         let system = &model.system;
         let damping = system.damping_at(speed);

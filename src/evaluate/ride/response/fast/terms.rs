@@ -124,7 +124,7 @@ pub(super) fn outputs(
 }
 
 impl OutputTerms {
-    /// Of an output of a model with `n` coordinates, of which only some are moved.
+    /// Terms of an output of a model with `n` coordinates, of which only some are moved.
     pub fn new(output: &Output, excitation: &Excitation, n: usize, moved: u32) -> Self {
         let terms = |row: &Row| {
             let mut terms: Vec<(Source, f64)> = Vec::with_capacity(row.terms().len());
