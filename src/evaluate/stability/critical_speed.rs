@@ -108,11 +108,11 @@ impl Crossing {
 }
 
 impl Stability {
-    /// Of a case, over the range of speeds that it names.
+    /// Onsets of a case over its range of speeds.
     ///
     /// # Errors
     ///
-    /// [`EigenError`] if eigenvalues cannot be had.
+    /// [`EigenError`] if eigenvalues do not converge.
     pub fn of(case: &Case) -> Result<Self, EigenError> {
         let model = LateralModel::new(case);
         let poles = Poles::at(&model.forced, case.service.speed)?;
@@ -124,7 +124,7 @@ impl Stability {
     ///
     /// # Errors
     ///
-    /// [`EigenError`] if eigenvalues cannot be had.
+    /// [`EigenError`] if eigenvalues do not converge.
     pub fn new(
         model: &LateralModel,
         poles: &Poles,

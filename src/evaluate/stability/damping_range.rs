@@ -52,7 +52,7 @@ impl DampingRange {
     ///
     /// # Errors
     ///
-    /// [`EigenError`] if eigenvalues cannot be had.
+    /// [`EigenError`] if eigenvalues do not converge.
     pub fn new(
         model: &LateralModel,
         poles: &Poles,
@@ -79,7 +79,7 @@ impl DampingMinimum {
         Complex::new(-zeta, (1.0 - zeta * zeta).max(0.0).sqrt()) * size
     }
 
-    /// Of an eigenvalue at a speed.
+    /// Damping ratio and frequency of an eigenvalue.
     pub(super) fn new(place: Place, known: &Eigenvalue) -> Self {
         Self {
             place,

@@ -9,10 +9,7 @@ use super::{
 };
 use crate::{
     dynamics::LateralModel,
-    numerics::{
-        Eigenpairs, Eigenvalue, PAIR_CONVERGED, Poles, Refiner, cubic::Between, damping_ratio,
-        elimination::LANES, modes_below, size,
-    },
+    numerics::{Eigenpairs, Eigenvalue, Poles, Refiner, damping_ratio, elimination::LANES, size},
 };
 
 /// Largest |ζ| of a mode that is followed; beyond it, pairs are close to becoming two real eigenvalues.
@@ -27,24 +24,18 @@ const SHORTEST_STEP: f64 = 5e-3;
 const STEP_REDUCTION: f64 = 0.3;
 /// Relative change of s that ends the refinement within a step: the error left is its third power.
 const STEP_TOLERANCE: f64 = 2e-2;
-/// Damping ratio below which all modes at the end of a complete walk are known.
-pub const COMPLETE_BELOW: f64 = 0.05;
-/// Range of damping ratios in which the ray of the mode count is laid.
-const COUNT_RAYS: [f64; 2] = [COMPLETE_BELOW, 0.15];
-/// Relative distance below which an eigenvalue of a spectrum is that of a followed mode.
-const SAME_EIGENVALUE: f64 = 1e-5;
 
 /// Lightly damped modes of a lateral model, followed over the speed.
 pub struct FollowedModes<'m> {
     pub(super) model: &'m LateralModel,
     pub(super) refiner: Refiner<'m>,
-    start: ModesAtSpeed,
+    pub(super) start: ModesAtSpeed,
     /// Work space for the modes at the next speed.
     spare: Option<ModesAtSpeed>,
     /// Modes at both ends of each step with an event.
-    steps_with_events: Vec<[Option<[Eigenvalue; 2]>; LANES]>,
+    pub(super) steps_with_events: Vec<[Option<[Eigenvalue; 2]>; LANES]>,
     /// Number of growing real eigenvalues, none or one: the same at every speed, by the sign of det K.
-    growing: usize,
+    pub(super) growing: usize,
     /// True if one grows by more than rounding.
     diverges: bool,
 }
@@ -53,7 +44,7 @@ pub struct FollowedModes<'m> {
 pub type Descent<'m> = (FollowedModes<'m>, EventSearch, Vec<Eigenvalue>);
 
 /// Modes at the end of a walk.
-pub struct WalkEnd(ModesAtSpeed);
+pub struct WalkEnd(pub(super) ModesAtSpeed);
 
 impl<'m> FollowedModes<'m> {
     /// Modes from the poles at any speed, to be followed within a range of speeds, m/s. `None` if two
@@ -113,67 +104,8 @@ impl<'m> FollowedModes<'m> {
         self.follow(start, target, search, enough).map(WalkEnd)
     }
 
-    /// All modes at the end of a walk with damping ratios below [`COMPLETE_BELOW`], confirmed by the mode
-    /// count. Modes that the walk did not follow are followed back to the start for their events.
-    pub fn complete(
-        &mut self,
-        walked: WalkEnd,
-        search: &mut EventSearch,
-    ) -> Option<Vec<Eigenvalue>> {
-        let speed = walked.0.speed();
-        let followed = walked.0.followed;
-        let mut modes = self.converged(walked.0);
-        if !self.are_all(&modes, speed) {
-            let unfollowed = self.unfollowed(&modes, speed)?;
-            modes.extend(self.converged(unfollowed.clone()));
-            if !self.are_all(&modes, speed) {
-                return None;
-            }
-            let back = self.start.speed();
-            let mut back = self.follow(unfollowed, back, search, |_, _| false)?;
-            let lanes_used = back.lanes_used();
-            if lanes_used > 0 {
-                self.refiner
-                    .converge(&mut back.pairs, lanes_used, PAIR_CONVERGED);
-            }
-            // A mode that returns to one that went all the way was confused with it.
-            let is_own = |l: usize| {
-                let mut own = self.start.lanes().filter(|o| followed[*o]);
-                own.any(|o| ModesAtSpeed::is_same_mode((&self.start, o), (&back, l)))
-            };
-            if back.lanes().any(is_own) {
-                return None;
-            }
-        }
-        Some(modes)
-    }
-
-    /// Eigenvalues refined to convergence.
-    fn converged(&mut self, mut state: ModesAtSpeed) -> Vec<Eigenvalue> {
-        let lanes_used = state.lanes_used();
-        if lanes_used > 0 {
-            self.refiner
-                .converge(&mut state.pairs, lanes_used, PAIR_CONVERGED);
-        }
-        state.lanes().map(|l| state.eigenvalue(l)).collect()
-    }
-
-    /// Modes at a speed besides the `known` ones. `None` if a lightly damped known one is not in the
-    /// spectrum.
-    fn unfollowed(&mut self, known: &[Eigenvalue], speed: f64) -> Option<ModesAtSpeed> {
-        let poles = Poles::at(&self.model.forced, speed).ok()?;
-        let mut values = worth_following(&poles);
-        for known in known {
-            let taken = take_nearest(&mut values, known.s, SAME_EIGENVALUE * size(known.s));
-            if taken.is_none() && damping_ratio(known.s) < COUNT_RAYS[1] {
-                return None;
-            }
-        }
-        ModesAtSpeed::new(&mut self.refiner, speed, values)
-    }
-
     /// Steps from `start` to `target`, m/s, with an adaptive step, adding events to the search.
-    fn follow(
+    pub(super) fn follow(
         &mut self,
         start: ModesAtSpeed,
         target: f64,
@@ -290,70 +222,6 @@ impl<'m> FollowedModes<'m> {
         });
         let deviation = deviation.fold(0.0, f64::max);
         (next, if fine { deviation } else { f64::INFINITY })
-    }
-
-    /// True if no mode grows at a speed, m/s, just below the onset of a mode, whose eigenvalue there is
-    /// `known`: by the mode count. `None` if the count is inconclusive.
-    pub fn stable_at(&mut self, speed: f64, known: Complex<f64>) -> Option<bool> {
-        let modes = self.modes_near(speed, known);
-        let counted = modes_below(&mut self.refiner, speed, 0.0, &modes);
-        counted.map(|counted| self.agrees(counted, 0))
-    }
-
-    /// Eigenvalues at a speed in a step with an event: of the event's mode, `one`, and of the others.
-    fn modes_near(&mut self, speed: f64, one: Complex<f64>) -> Vec<Complex<f64>> {
-        let within = |[low, high]: &[Eigenvalue; 2]| low.speed <= speed && speed <= high.speed;
-        let step = self
-            .steps_with_events
-            .iter()
-            .find(|modes| modes.iter().flatten().any(within));
-        let modes = step.into_iter().flatten().enumerate();
-        let lanes: Vec<(usize, [Eigenvalue; 2])> =
-            modes.filter_map(|(l, ends)| Some((l, (*ends)?))).collect();
-        let Some(&first) = lanes.first() else {
-            return vec![one];
-        };
-        let mut pairs = self.start.pairs.clone();
-        for l in 0..LANES {
-            let own = lanes.iter().copied().find(|(lane, _)| *lane == l);
-            let (lane, [low, high]) = own.unwrap_or(first);
-            pairs.take(l, &self.start.pairs, lane);
-            let s = Between::new(&low, &high).at_speed(speed);
-            (pairs.s.re[l], pairs.s.im[l]) = (s.re, s.im);
-        }
-        pairs.speed = [speed; LANES];
-        self.refiner.converge(&mut pairs, LANES, PAIR_CONVERGED);
-        let mut modes = vec![one];
-        for s in lanes.into_iter().map(|(l, _)| pairs.s.lane(l)) {
-            let is_new = |known: &Complex<f64>| size(*known - s) > SAME_EIGENVALUE * size(s);
-            if s.is_finite() && s.im > 0.0 && modes.iter().all(is_new) {
-                modes.push(s);
-            }
-        }
-        modes
-    }
-
-    /// True if `modes` are all lightly damped modes at a speed, by the mode count.
-    fn are_all(&mut self, modes: &[Eigenvalue], speed: f64) -> bool {
-        let values: Vec<Complex<f64>> = modes.iter().map(|known| known.s).collect();
-        let mut ratios: Vec<f64> = values.iter().map(|s| damping_ratio(*s)).collect();
-        ratios.push(COUNT_RAYS[0]);
-        ratios.push(COUNT_RAYS[1]);
-        ratios.retain(|z| (COUNT_RAYS[0]..=COUNT_RAYS[1]).contains(z));
-        ratios.sort_by(f64::total_cmp);
-        // The ray through the middle of the widest gap is far from every known mode.
-        let gap = ratios
-            .windows(2)
-            .max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
-        let zeta = gap.map_or(COUNT_RAYS[0], |gap| f64::midpoint(gap[0], gap[1]));
-        let expected = values.iter().filter(|s| damping_ratio(**s) < zeta).count();
-        let counted = modes_below(&mut self.refiner, speed, zeta, &values);
-        counted.is_some_and(|counted| self.agrees(counted, expected))
-    }
-
-    /// True if a count is that of some oscillations and the growing real eigenvalues, which count half.
-    fn agrees(&self, counted: f64, oscillating: usize) -> bool {
-        (counted - 0.5 * self.growing as f64 - oscillating as f64).abs() < 0.1
     }
 }
 

@@ -8,6 +8,7 @@
 //! The answer is `None` where two modes cannot be distinguished, or where the mode count finds one that
 //! was not followed; then the plain methods (`spectra`) answer.
 
+mod confirmation;
 mod critical_speed;
 mod damping_range;
 mod events;
@@ -16,6 +17,7 @@ mod jump;
 mod modes_at_speed;
 mod search;
 
+use confirmation::COMPLETE_BELOW;
 use events::Event;
-use followed_modes::{COMPLETE_BELOW, Descent, FollowedModes};
+use followed_modes::{Descent, FollowedModes};
 use search::{EventSearch, StepSize};

@@ -25,7 +25,7 @@ pub struct EventSearch {
 pub enum StepSize {
     /// For most vehicles.
     Long,
-    /// Where long steps fail.
+    /// For vehicles where long steps fail.
     Short,
 }
 

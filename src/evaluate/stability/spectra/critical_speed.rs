@@ -30,7 +30,7 @@ impl Stability {
     ///
     /// # Errors
     ///
-    /// [`EigenError`] if eigenvalues cannot be had.
+    /// [`EigenError`] if eigenvalues do not converge.
     pub fn by_spectra(model: &LateralModel, range: [f64; 2]) -> Result<Self, EigenError> {
         let ratio = range[1] / range[0];
         let speeds: Vec<f64> = (0..GRID_SPEEDS)

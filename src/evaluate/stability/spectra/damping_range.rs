@@ -45,7 +45,7 @@ impl DampingRange {
     ///
     /// # Errors
     ///
-    /// [`EigenError`] if eigenvalues cannot be had.
+    /// [`EigenError`] if eigenvalues do not converge.
     pub fn by_spectra(
         model: &LateralModel,
         range: [f64; 2],
