@@ -24,7 +24,7 @@ pub struct Conflict {
     pub demands: Vec<Opposed>,
 }
 
-/// One of the demands in conflict.
+/// A demand in conflict.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Opposed {
     /// Index.

@@ -152,7 +152,7 @@ fn power_of_stiffness(parameter: Parameter) -> Option<f64> {
 
 /// A case in which every constant that is as given but for rounding has the bits as given.
 fn with_bits_of(given: &Case, mut case: Case) -> Case {
-    /// From a constant to a scaled coordinate and back, through frequencies and damping ratios.
+    /// Rounding of a constant by the conversion to a scaled coordinate and back.
     const CONSTANT_ROUNDING: f64 = 1e-12;
     for constant in Parameter::TEN {
         let (own, kept) = (constant.get(&case), constant.get(given));

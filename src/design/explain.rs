@@ -19,7 +19,7 @@ use crate::{
 /// A variable and its value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chosen {
-    /// Which parameter.
+    /// Variable.
     pub parameter: Parameter,
     /// The variable with its bounds.
     pub variable: Variable,
@@ -46,7 +46,7 @@ pub enum Bound {
 /// The single index behind an objective.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Objective {
-    /// Which.
+    /// Index.
     pub index: Index,
     /// Its value, SI.
     pub value: f64,
@@ -79,7 +79,7 @@ pub struct Explained {
     pub merit: Option<f64>,
     /// Variables with their values.
     pub chosen: Vec<Chosen>,
-    /// How the search ended.
+    /// Status of the search.
     pub status: Status,
     /// Residual of the first-order conditions, scaled; `None` where they were not verified.
     pub kkt_residual: Option<f64>,
@@ -87,7 +87,7 @@ pub struct Explained {
     pub curvature: Option<Curvature>,
     /// Largest relative violation of a demand; `None` if the design has no performance.
     pub violation: Option<f64>,
-    /// Whether bounds of missed demands are relaxed: multipliers there tell no price and no gain.
+    /// True if bounds of missed demands are relaxed: multipliers are then neither prices nor gains.
     pub is_relaxed: bool,
     /// Limits that hold the design back, by name.
     pub active: Vec<String>,
@@ -95,7 +95,7 @@ pub struct Explained {
     pub prices: Vec<Price>,
     /// Different local optima that were found, the best first.
     pub optima: Vec<LocalOptimum>,
-    /// How far the space was searched for others; `None` where the search stayed near designs known.
+    /// Coverage of the space; `None` if the search stayed near known designs.
     pub coverage: Option<Coverage>,
     /// Effort.
     pub effort: Effort,

@@ -1,4 +1,4 @@
-//! How free the designer is around an optimum: the range of every variable over which a design keeps all
+//! Freedom around an optimum: the range of every variable over which a design keeps all
 //! demands and loses little of each objective, the other variables chosen anew.
 //!
 //! ```math
@@ -59,7 +59,7 @@ pub enum EndKind {
 /// The range over which a variable is free.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Free {
-    /// Which variable.
+    /// Variable.
     pub parameter: Parameter,
     /// The lower and the upper end.
     pub ends: [End; 2],

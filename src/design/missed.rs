@@ -76,7 +76,7 @@ pub(super) struct Reached<'a> {
 }
 
 impl<'a> Reached<'a> {
-    /// Of the study's demands at scaled coordinates `x`.
+    /// Values reached of the study's demands at scaled coordinates `x`.
     pub fn new(open: &'a Study, x: &[f64]) -> Self {
         Self {
             open,

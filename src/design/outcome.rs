@@ -26,7 +26,7 @@ use crate::{
 /// Result of one trade-off, or of all at once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StageResult {
-    /// Which trade-off; `None` for all at once.
+    /// Trade-off; `None` for all at once.
     pub trade_off: Option<TradeOff>,
     /// The solution explained.
     pub explained: Explained,
@@ -37,7 +37,7 @@ pub struct StageResult {
 }
 
 impl StageResult {
-    /// Why no design could be evaluated, if none could.
+    /// Reason why no design could be evaluated.
     pub fn failure(&self) -> Option<Failure> {
         match self.explained.status {
             Status::Failed(failure) => Some(failure),
@@ -51,9 +51,9 @@ impl StageResult {
 pub struct Profile {
     /// λ.
     pub conicity: f64,
-    /// How its search ended.
+    /// Status of its search.
     pub status: Status,
-    /// How far the space was searched; `None` where the search stayed near designs known.
+    /// Coverage of the space; `None` if the search stayed near known designs.
     pub coverage: Option<Coverage>,
     /// Critical speed, m/s; `None`: stable over the range searched.
     pub critical_speed: Option<f64>,
@@ -125,10 +125,10 @@ pub(super) fn half_kalker(case: &Case) -> Result<Evaluation, EigenError> {
     Evaluation::new(&half)
 }
 
-/// Which of the designs found is delivered.
+/// Origin of the design delivered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Delivered {
-    /// That of the trade-offs in turn.
+    /// The trade-offs in turn.
     InTurn,
     /// That of all parameters at once: asked for, or because in turn demands are missed that it
     /// meets or comes closer to.
@@ -158,7 +158,7 @@ pub struct DesignResult {
     pub half_kalker: Evaluation,
     /// Its performance in the further conditions.
     pub conditions: Vec<InCondition>,
-    /// Which of the designs found it is.
+    /// Origin of the design.
     pub delivered: Delivered,
     /// The trade-offs in the order of the procedure, or all at once.
     pub stages: Vec<StageResult>,
@@ -170,11 +170,11 @@ pub struct DesignResult {
     pub joint: Option<Joint>,
     /// Every demand and the value reached.
     pub margins: Vec<Margin>,
-    /// Which demands conflict, where some are not met.
+    /// Demands in conflict, if some are not met.
     pub conflict: Option<Conflict>,
     /// Effort of all stages.
     pub effort: Effort,
-    /// Why the run ended early, if it did.
+    /// Reason for an early end of the run.
     pub stopped: Option<Stop>,
 }
 

@@ -38,7 +38,7 @@ const MAX_ROUNDS: usize = 10;
 /// Change of a scaled variable that counts as none.
 const UNCHANGED: f64 = 1e-4;
 
-/// Why there is no design.
+/// Reason why there is no design.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DesignError {
     /// No open parameter.
@@ -254,7 +254,7 @@ impl Procedure<'_> {
         margins(case, &self.spec.demands, &self.spec.conditions)
     }
 
-    /// How a design that some stages led to stands to the demands.
+    /// Rank of a design that some stages led to.
     fn standing<'r>(
         &self,
         case: &Case,

@@ -56,7 +56,7 @@ pub(super) struct Settled {
     pub found: Searched,
     /// The numbers that its terms have in the whole study.
     pub terms: Vec<usize>,
-    /// Where to begin in all conditions.
+    /// Start of the search in all conditions.
     pub near: Start,
 }
 

@@ -54,7 +54,7 @@ pub struct StageInput<'a> {
     pub known: Option<&'a StageResult>,
     /// Other designs to begin from.
     pub also: &'a [Case],
-    /// Where the search begins but for designs.
+    /// Start of the search, without designs.
     pub start: Start,
 }
 

@@ -25,7 +25,7 @@ use crate::{
 pub struct Sweep<'a> {
     spec: &'a Spec,
     indices: Vec<Index>,
-    /// One for each profile to choose from.
+    /// A study for each profile to choose from.
     studies: Vec<Study>,
     sequence: Sequence,
     /// Demands in the nominal condition and in the further ones.
@@ -34,7 +34,7 @@ pub struct Sweep<'a> {
     wanted: Vec<Vec<Wanted>>,
 }
 
-/// One design.
+/// A design of the sweep.
 #[derive(Debug, Clone)]
 pub struct Design {
     /// Its number, from 1.
@@ -68,7 +68,7 @@ impl Meets {
         }
     }
 
-    /// How a measured index stands to a demand; one without pieces does not exist here, and meets it.
+    /// Verdict of a measured index on a demand; an index without pieces does not exist here and meets it.
     fn new(demand: Demand, measured: Result<Vec<Piece>, Failure>) -> Self {
         match measured.map(|pieces| worst(demand.index, &pieces)) {
             Ok(Some(reached)) if !demand.met_by(reached) => Self::No,
@@ -80,7 +80,7 @@ impl Meets {
     }
 }
 
-/// Why a design has no value of an index.
+/// Reason why a design has no value of an index.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum NoValue {
     /// It has no such performance.

@@ -30,7 +30,7 @@ pub struct Tasks<'a> {
 /// Ratio to flange contact or slip up to which the linear model covers a curve.
 const WITHIN_MODEL: f64 = 1.0;
 
-/// Which pieces of an index a trade-off's parameters decide, so that it keeps the demand on them.
+/// Pieces of an index that a trade-off's parameters decide: it keeps the demand on them.
 enum Concern {
     None,
     All,
@@ -212,7 +212,7 @@ impl<'a> Tasks<'a> {
         (study, goal.into())
     }
 
-    /// One trade-off of a case (whose other parameters stay).
+    /// Task of one trade-off of a case, whose other parameters stay.
     pub fn trade_off(&self, case: &Case, trade_off: TradeOff) -> Task {
         let study = self.study(case, |parameter| parameter.trade_off() == trade_off);
         let (mut study, goal) = self.objective_of(study, trade_off, 0);

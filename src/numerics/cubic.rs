@@ -9,7 +9,7 @@ use super::Eigenvalue;
 pub struct Cubic([Complex<f64>; 4]);
 
 impl Cubic {
-    /// From values and slopes at both ends.
+    /// Cubic with values and slopes at both ends.
     pub fn new([a, da]: [Complex<f64>; 2], [b, db]: [Complex<f64>; 2]) -> Self {
         let change = b - a;
         Self([a, da, 3.0 * change - 2.0 * da - db, da + db - 2.0 * change])
@@ -43,7 +43,7 @@ const MAX_STEPS: usize = 60;
 const ROOT_ACCURACY: f64 = 1e-10;
 
 impl Between {
-    /// Of an eigenvalue at a lower and a higher speed.
+    /// Cubic between an eigenvalue at a lower and at a higher speed.
     pub fn new(low: &Eigenvalue, high: &Eigenvalue) -> Self {
         let length = (high.speed / low.speed).ln();
         let [a, b] = [low, high].map(|known| [known.s, known.slope * length]);

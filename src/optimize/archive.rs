@@ -109,7 +109,7 @@ impl Spent {
 #[derive(Default)]
 struct Kept {
     known: HashMap<Bits, Measured>,
-    /// From the journal of an earlier run, not yet asked for in this one.
+    /// Measurements from the journal of an earlier run, not yet asked for in this one.
     recorded: HashMap<Bits, Measured>,
     journal: Option<Journal>,
     /// Number of measurements asked for in this run, including those from the journal.

@@ -65,7 +65,7 @@ struct Line {
     failure: Option<Failure>,
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pieces: Vec<(usize, f64, f64)>,
-    /// Of the pieces, where they are known.
+    /// Gradients of the pieces, where known.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     gradients: Vec<Option<Vec<f64>>>,
 }

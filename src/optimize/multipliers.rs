@@ -41,7 +41,7 @@ pub(super) struct Conditions {
 }
 
 impl Conditions {
-    /// Of a design at scaled coordinates `x`.
+    /// Conditions of a design at scaled coordinates `x`.
     pub fn new(surrogate: &Surrogate, values: &Values, x: &[f64]) -> Self {
         let n = x.len();
         let objectives = surrogate.objectives.iter().enumerate();
@@ -198,7 +198,7 @@ mod tests {
         conditions.gradient_sum(y).norm_squared() / 2.0 + gaps.sum::<f64>()
     }
 
-    /// With columns left out and taken in as they are wanted the minimum is that of all columns.
+    /// Column generation reaches the minimum over all columns.
     #[test]
     fn columns_left_out_change_no_minimum() {
         for n in [2, 5] {

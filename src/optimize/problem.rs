@@ -23,7 +23,7 @@ pub struct Variable {
     pub quantity: Quantity,
     /// Bounds, SI.
     pub bounds: [f64; 2],
-    /// How the variable is scaled between them.
+    /// Scale between the bounds.
     pub scale: Scale,
 }
 

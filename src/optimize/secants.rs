@@ -85,7 +85,7 @@ struct Secants {
     n: usize,
     /// Displacements of the designs.
     displacements: Vec<DVector<f64>>,
-    /// By the designs at which a piece is known.
+    /// Factors by the designs at which a piece is known.
     factors: Vec<(Vec<bool>, Factor)>,
 }
 
@@ -156,7 +156,7 @@ fn weight(d: &DVector<f64>) -> f64 {
     1.0 / (GRADIENT_ROUNDING + d.norm_squared()).powi(2)
 }
 
-/// Where the entry (i, j) of a symmetric matrix is kept.
+/// Position of entry (i, j) of a symmetric matrix.
 fn position(i: usize, j: usize) -> usize {
     let (low, high) = (i.min(j), i.max(j));
     high * (high + 1) / 2 + low

@@ -74,7 +74,7 @@ pub struct Coverage {
 }
 
 impl Coverage {
-    /// Whether basins not yet seen are as unlikely as asked for.
+    /// True if the expected share of basins not yet seen is within the bound.
     pub fn is_enough(&self) -> bool {
         self.unseen <= self.bound
     }

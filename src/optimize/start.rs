@@ -53,7 +53,7 @@ impl Start {
         }
     }
 
-    /// With another bound on the share of the space in basins not yet seen.
+    /// Sets the bound on the share of the space in basins not yet seen.
     #[must_use]
     pub fn until(mut self, unseen: f64) -> Self {
         if let Some(everywhere) = &mut self.everywhere {
@@ -71,7 +71,7 @@ impl Start {
         self
     }
 
-    /// With further designs to start from.
+    /// Adds designs to start from.
     #[must_use]
     pub fn with(mut self, designs: Vec<Vec<f64>>) -> Self {
         self.designs.extend(designs);

@@ -238,7 +238,7 @@ pub(crate) fn follow(centre: &[Piece], k: usize, other: &[Piece]) -> Option<f64>
 pub(super) struct ByIndex<'p>(HashMap<usize, Vec<&'p Piece>>);
 
 impl<'p> ByIndex<'p> {
-    /// From the pieces of one objective, or of the constraints.
+    /// Index of the pieces of one objective, or of the constraints.
     pub fn new(pieces: &'p [Piece]) -> Self {
         let mut by_index: HashMap<usize, Vec<&'p Piece>> = HashMap::new();
         for piece in pieces {

@@ -11,7 +11,7 @@ const WIDE_GAP: f64 = 3.0;
 /// Searches between points, per point asked for.
 const TRIES: usize = 3;
 
-/// Where was searched between points.
+/// Gaps between points that were searched.
 #[derive(Debug, Default)]
 pub(super) struct Filling {
     /// Pairs of points, by badness, between which a search came to no other.

@@ -17,7 +17,7 @@ pub struct FrontPoint {
     pub values: Vec<f64>,
     /// The optimum explained, with the prices of the bounds on the other indices.
     pub explained: Explained,
-    /// Which of the wheel profiles it has.
+    /// Number of its wheel profile.
     pub(super) profile: usize,
     /// The design in scaled coordinates.
     pub(super) x: Vec<f64>,
@@ -29,7 +29,7 @@ pub struct FrontPoint {
     pub(super) is_spared: bool,
 }
 
-/// How bad a value is: logarithmic for indices compared by ratios, smaller is better.
+/// Cost of a value: its logarithm for indices compared by ratios; smaller is better.
 pub(super) fn badness(index: Index, value: f64) -> f64 {
     let size = match index.scale() {
         Scale::Logarithmic => value.max(f64::MIN_POSITIVE).ln(),
@@ -54,7 +54,7 @@ pub(super) fn of_badness(index: Index, badness: f64) -> f64 {
 }
 
 impl FrontPoint {
-    /// How bad it is in every index.
+    /// Cost in every index.
     pub(super) fn badness(&self, indices: &[Index]) -> Vec<f64> {
         let pairs = indices.iter().zip(&self.values);
         pairs

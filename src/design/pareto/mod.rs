@@ -45,21 +45,21 @@ pub struct Front {
     pub points: Vec<FrontPoint>,
     /// Points asked for.
     pub asked: usize,
-    /// Why there are fewer, or wider gaps between them; `None` if there are not.
+    /// Reason for fewer points or wider gaps than asked for.
     pub sparse: Option<Sparse>,
     /// Points found but dominated by others.
     pub dominated: usize,
-    /// Why there is no point, where no design could be evaluated.
+    /// Reason why there is no point: no design could be evaluated.
     pub failure: Option<Failure>,
-    /// Why the run ended early, if it did.
+    /// Reason for an early end of the run.
     pub stopped: Option<Stop>,
     /// Full-model evaluations.
     pub evaluations: usize,
-    /// Of which without a result, by reason.
+    /// Number of them without values, by reason.
     pub failures: BTreeMap<Failure, usize>,
 }
 
-/// Where a front has fewer points than asked for, or gaps.
+/// Shortcoming of a front: fewer points than asked for, or gaps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sparse {
     /// Places between neighbouring points at which a search came to no other point: the front jumps
@@ -122,7 +122,7 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Front {
     }
 }
 
-/// One for every wheel profile to choose from.
+/// A tracer for every wheel profile to choose from.
 fn tracers<'a>(spec: &'a Spec, archive: &'a Archive<'a>) -> Vec<Tracer<'a>> {
     let tasks = Tasks::new(spec);
     let profiles = tasks.profiles(&spec.case);

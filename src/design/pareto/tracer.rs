@@ -38,7 +38,7 @@ pub(super) struct Aim {
 
 /// The search for points of one profile.
 pub(super) struct Tracer<'a> {
-    /// Which of the wheel profiles.
+    /// Number of the wheel profile.
     pub profile: usize,
     /// Parameters, and demands on indices that are not traded off.
     pub study: Study,
@@ -129,7 +129,7 @@ impl Tracer<'_> {
         self.solve(aim, &start.with(self.pool.with_others(near)))
     }
 
-    /// One point; `None` if no design found keeps the bounds, or the run ended before it converged.
+    /// Point of an aim; `None` if no design found keeps the bounds, or the run ended before it converged.
     pub fn solve(&self, aim: &Aim, start: &Start) -> Result<Option<FrontPoint>, NoDesign> {
         let mut study = self.study.clone();
         for condition in 0..study.conditions() {

@@ -17,7 +17,7 @@ use crate::{
     spec::{DesignSpace, Spec},
 };
 
-/// How sensitivity is found, and from how much.
+/// Method of the sensitivity analysis, with its sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
     /// Shares of variance, see [`sobol`].
@@ -61,10 +61,10 @@ impl Method {
     }
 }
 
-/// How an analysis is run.
+/// Settings of an analysis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings {
-    /// How sensitivity is found.
+    /// Method.
     pub method: Method,
     /// Seed: the same gives the same bits.
     pub seed: u64,
@@ -79,9 +79,9 @@ pub struct Sensitivity {
     pub factors: Vec<Factor>,
     /// Relative spread of the factors that are inputs.
     pub spread: f64,
-    /// By index.
+    /// Results by index.
     pub indices: Vec<IndexSensitivity>,
-    /// Whole rows or trajectories evaluated: fewer than asked for if the run was interrupted.
+    /// Number of whole rows or trajectories evaluated: fewer than asked for if the run was interrupted.
     pub groups: usize,
 }
 

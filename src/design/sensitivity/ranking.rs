@@ -1,4 +1,4 @@
-//! Which factors matter to an index, and which do not.
+//! Ranking of the factors by their influence on an index.
 
 use super::{morris, sobol};
 

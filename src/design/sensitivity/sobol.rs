@@ -23,7 +23,7 @@ const RESAMPLES: usize = 1000;
 /// does not vary.
 const CONSTANT: f64 = 1e-9;
 
-/// How much is sampled.
+/// Size of the sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings {
     /// N, rows of the sample: each takes two evaluations more than there are factors. Powers of
@@ -57,9 +57,9 @@ pub struct Effect {
 /// A variance decomposition.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decomposition {
-    /// By output.
+    /// Indices by output.
     pub outputs: Vec<Output<Effect>>,
-    /// Whole rows evaluated.
+    /// Number of whole rows evaluated.
     pub rows: usize,
 }
 
@@ -146,7 +146,7 @@ where
     }
 }
 
-/// One row as far as one factor is concerned.
+/// A row for one factor.
 #[derive(Clone, Copy)]
 struct Row {
     a: f64,

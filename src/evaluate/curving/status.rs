@@ -14,7 +14,7 @@ pub enum CurveStatus {
     WithinModel,
     /// A limit is exceeded: forces and strokes are an extrapolation.
     OutsideModel {
-        /// Of the limits exceeded, the one first met as the curve tightens at this cant deficiency.
+        /// Exceeded limit that is met first as the curve tightens at this cant deficiency.
         limit: Limit,
         /// Its ratio in this curve: |y_w| over the flange clearance, or the share of μN used.
         ratio: f64,

@@ -43,7 +43,7 @@ pub struct KinematicBand {
 }
 
 impl KinematicBand {
-    /// From the rigid truck's kinematic frequency (3.5-5) over √2 to the free wheelset's (3.5-2)
+    /// Band from the rigid truck's kinematic frequency (3.5-5) over √2 to the free wheelset's (3.5-2)
     /// times √2, at `speed` in m/s: a truck on springs lies between the two but for the effects of
     /// inertia and gravitational stiffness.
     pub fn new(case: &Case, speed: f64) -> Self {
@@ -125,7 +125,7 @@ impl TruckMotion {
 }
 
 impl KinematicMode {
-    /// Of the lateral model of a case at `speed`, m/s. `None` if the truck diverges.
+    /// Kinematic mode of the lateral model of a case at `speed`, m/s. `None` if the truck diverges.
     ///
     /// # Errors
     ///

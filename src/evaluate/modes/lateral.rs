@@ -81,7 +81,7 @@ pub struct LateralModes {
 }
 
 impl LateralModes {
-    /// From the poles at some speed.
+    /// Modes from the poles at some speed.
     ///
     /// # Errors
     ///
@@ -245,7 +245,7 @@ fn carbody_shape(model: &LateralModel, mode: &Mode) -> LateralShape {
     }
 }
 
-/// By the coordinates with the most kinetic energy.
+/// Name by the coordinates with the most kinetic energy.
 fn truck_shape(model: &LateralModel, mode: &Mode) -> LateralShape {
     let share = |of: fn(Coordinate) -> bool| {
         mode.energy_share(&model.forced.system, |i| {

@@ -46,7 +46,8 @@ pub fn odd_freedoms(spec: &Spec, document: &Document, doubts: &mut Vec<Diagnosti
         }
         let now = parameter.get(&spec.case);
         let given = keys::of_parameter(*parameter).and_then(|key| document.get(key.path));
-        let inside = bounds.lower * (1.0 - PUBLISHED_ROUNDING)..=bounds.upper * (1.0 + PUBLISHED_ROUNDING);
+        let inside =
+            bounds.lower * (1.0 - PUBLISHED_ROUNDING)..=bounds.upper * (1.0 + PUBLISHED_ROUNDING);
         if given.is_some() && !inside.contains(&now) {
             doubts.push(
                 Diagnostic::at(
