@@ -3,14 +3,15 @@
 use bogie::{
     case::Case,
     design::measure::{Wanted, measure, measure_graded},
-    dynamics::{LateralModel, Poles, VerticalModel},
+    dynamics::{LateralModel, VerticalModel},
     evaluate::{
         Evaluation,
-        critical_speed::Stability,
         curving::CurvingLimits,
         ride::{LateralRide, VerticalRide},
+        stability::Stability,
     },
     index::Index,
+    numerics::Poles,
     parameter::Parameter,
 };
 use divan::{Bencher, black_box, counter::ItemsCount};
@@ -88,7 +89,7 @@ fn critical_speed(bencher: Bencher) {
 fn critical_speed_by_spectra(bencher: Bencher) {
     let case = Case::prototype();
     bencher.bench_local(|| {
-        Stability::search(&LateralModel::new(black_box(&case)), case.model.speed_range)
+        Stability::by_spectra(&LateralModel::new(black_box(&case)), case.model.speed_range)
     });
 }
 

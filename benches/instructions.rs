@@ -24,13 +24,14 @@ mod counted {
 
     use bogie::{
         case::Case,
-        dynamics::{EigenError, LateralModel, Poles, VerticalModel, curving::CurvingError},
+        dynamics::{LateralModel, VerticalModel, curving::CurvingError},
         evaluate::{
             Evaluation,
-            critical_speed::Stability,
             curving::CurvingLimits,
             ride::{LateralRide, NoRide, VerticalRide},
+            stability::Stability,
         },
+        numerics::{EigenError, Poles},
     };
     use gungraun::{library_benchmark, library_benchmark_group, main};
 

@@ -1,5 +1,6 @@
 //! Performance indices by name: what can be required, limited, optimised and traded off.
 
+pub use crate::evaluate::limits::MET;
 use crate::{
     track::MAX_DEGREE,
     units::{Quantity, Range},
@@ -304,10 +305,6 @@ pub struct Demand {
     /// Least or greatest value, SI base units.
     pub bound: f64,
 }
-
-/// Shortfall within which a bound counts as kept: relative, or absolute for damping ratios. It is
-/// what an engineer would see, and leaves room for the accuracy of a search.
-pub const MET: f64 = 1e-4;
 
 impl Demand {
     /// How far a value, SI, falls short of the bound: relative to it, or as it is for damping

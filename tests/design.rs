@@ -14,7 +14,7 @@ use bogie::{
         study::Study,
     },
     dynamics::LateralModel,
-    evaluate::{Evaluation, critical_speed::Stability},
+    evaluate::{Evaluation, stability::Stability},
     index::Index,
     optimize::{
         archive::{Archive, Silent},
@@ -268,7 +268,7 @@ fn mass_correction() {
         }
         let speed = |case: &Case| {
             let found =
-                Stability::search(&LateralModel::new(case), case.model.speed_range).unwrap();
+                Stability::by_spectra(&LateralModel::new(case), case.model.speed_range).unwrap();
             found.critical_speed().unwrap()
         };
         let corrected = corrections::for_mass(speed(&heavy), &heavy.vehicle, &light.vehicle);

@@ -6,16 +6,17 @@ mod support;
 use bogie::{
     case::Case,
     closed_form::natural_frequencies::carbody_roll,
-    dynamics::{LateralModel, Poles, curving::CurvingError, eigenvalues},
+    dynamics::{LateralModel, curving::CurvingError},
     evaluate::{
         Evaluation,
-        critical_speed::{Outcome, Stability},
         curving::CurvingState,
         ride::NoRide,
+        stability::{Outcome, Stability},
         warnings::warnings,
     },
     export::{evaluation_json::evaluation as json, modes::Modes, psd::Spectra},
     index::Index,
+    numerics::{Poles, eigenvalues},
     optimize::problem::Failure,
 };
 use serde_json::Value;
@@ -310,7 +311,7 @@ fn modes_in_pairs() {
     assert!(twins.count() >= 4, "{values:?}");
 
     let stability = Stability::of(&case).unwrap();
-    let plain = Stability::search(&model, case.model.speed_range).unwrap();
+    let plain = Stability::by_spectra(&model, case.model.speed_range).unwrap();
     match (stability.critical_speed(), plain.critical_speed()) {
         (Some(a), Some(b)) => assert_ratio("critical speed", a, b, 1e-6),
         (a, b) => assert_eq!(a, b),

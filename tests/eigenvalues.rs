@@ -1,6 +1,6 @@
 //! Matrices on which unlimited eigenvalue iterations have run for ever.
 
-use bogie::dynamics::{EigenError, eigenvalues};
+use bogie::numerics::{EigenError, eigenvalues};
 use nalgebra::{Complex, DMatrix};
 
 fn slow(text: &str) -> DMatrix<f64> {

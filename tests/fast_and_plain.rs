@@ -5,13 +5,13 @@ mod support;
 use bogie::{
     case::Case,
     design::tasks::Tasks,
-    dynamics::{ForcedModel, LateralModel, Poles, VerticalModel, eigenvalues, elimination::LANES},
+    dynamics::{ForcedModel, LateralModel, VerticalModel},
     evaluate::{
-        critical_speed::Stability,
-        damping_range::DampingRange,
-        response::{Response, plain},
+        ride::response::{Response, plain},
+        stability::{DampingRange, Stability},
     },
     index::Index,
+    numerics::{Poles, eigenvalues, elimination::LANES},
     vehicle::{AirSpring, Suspension},
 };
 use rand::SeedableRng;
@@ -48,11 +48,11 @@ fn critical_speeds_are_those_of_full_spectra() {
             let name = format!("vehicle {i} of factor {factor}");
             let (model, range) = (LateralModel::new(&case), case.model.speed_range);
             let poles = poles(&model, &case);
-            let Some(fast) = Stability::followed(&model, &poles, range, 1.0) else {
+            let Some(fast) = Stability::by_following(&model, &poles, range, 1.0) else {
                 continue;
             };
             compared += 1;
-            let plain = Stability::search(&model, range).unwrap();
+            let plain = Stability::by_spectra(&model, range).unwrap();
             assert_eq!(fast.unstable_at_start, plain.unstable_at_start, "{name}");
             assert_eq!(
                 fast.divergence.is_some(),
@@ -122,10 +122,10 @@ fn least_damping_is_that_of_full_spectra_or_lower() {
         let model = LateralModel::new(&case);
         let (range, below) = ([2.2, 1.3 * case.service.speed], 0.05);
         let poles = poles(&model, &case);
-        let Some(fast) = DampingRange::followed(&model, &poles, range, below) else {
+        let Some(fast) = DampingRange::by_following(&model, &poles, range, below) else {
             continue;
         };
-        let plain = DampingRange::search(&model, range, below).unwrap();
+        let plain = DampingRange::by_spectra(&model, range, below).unwrap();
         let [fast, plain] = [fast, plain].map(|found| found.least().expect(&name).damping_ratio);
         if plain > below && fast > below {
             continue;

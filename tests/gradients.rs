@@ -5,14 +5,15 @@ mod support;
 use bogie::{
     case::{Case, CurvingCreep, TruckRoll},
     design::measure::{Wanted, measure, measure_graded},
-    dynamics::{LateralModel, Poles, VerticalModel, curving::CurvingModel},
+    dynamics::{LateralModel, VerticalModel, curving::CurvingModel},
     evaluate::{
-        critical_speed::Stability,
         curving::{CurvingLimits, CurvingState, Limit, ServiceCurve},
         gradients::{Constants, curving::CurvingTangents, modes},
         ride::{LateralRide, VerticalRide},
+        stability::Stability,
     },
     index::Index,
+    numerics::Poles,
     optimize::problem::Piece,
     parameter::Parameter,
 };

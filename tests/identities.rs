@@ -3,7 +3,6 @@
 mod support;
 
 use approx::assert_relative_eq;
-use bogie::vehicle::AirSpring;
 use bogie::{
     case::{Case, Crosslevel, CurvingCreep, TruckRoll},
     closed_form::{
@@ -13,14 +12,15 @@ use bogie::{
     dynamics::{
         LateralModel,
         curving::{Breakaway, CurvingError, Side},
-        eigenvalues,
     },
     evaluate::{
         Evaluation,
-        critical_speed::Stability,
         curving::{CurvingLimits, CurvingState},
-        vertical_modes::VerticalShape,
+        modes::VerticalShape,
+        stability::Stability,
     },
+    numerics::eigenvalues,
+    vehicle::AirSpring,
 };
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -367,7 +367,7 @@ fn air_spring_limits() {
 fn critical_speed_is_a_change_of_stability() {
     for (name, case, _) in reference_cases() {
         let model = LateralModel::new(&case);
-        let found = Stability::search(&model, case.model.speed_range).unwrap();
+        let found = Stability::by_spectra(&model, case.model.speed_range).unwrap();
         let growing = |speed: f64| {
             let values = eigenvalues(model.forced.system.state_matrix(speed)).unwrap();
             values.iter().filter(|s| s.im > 0.0 && s.re > 0.0).count()

@@ -5,9 +5,13 @@ mod support;
 use bogie::{
     case::Case,
     design::measure::{Wanted, measure, measure_graded},
-    dynamics::{LateralModel, Poles},
-    evaluate::{Evaluation, kinematic_mode::KinematicMode, lateral_modes::LateralModes},
+    dynamics::LateralModel,
+    evaluate::{
+        Evaluation,
+        modes::{KinematicMode, LateralModes},
+    },
     index::Index,
+    numerics::Poles,
     optimize::problem::Failure,
     parameter::Parameter,
 };

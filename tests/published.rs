@@ -8,7 +8,7 @@ use bogie::{
     case::Case,
     design::{compromise::shortfall, search, study::Study},
     dynamics::LateralModel,
-    evaluate::{Evaluation, critical_speed::Stability, curving::CurvingLimits},
+    evaluate::{Evaluation, curving::CurvingLimits, stability::Stability},
     index,
     optimize::{
         archive::{Archive, Silent},
@@ -68,7 +68,7 @@ fn published() -> Published {
 }
 
 fn critical_speed_mph(case: &Case) -> f64 {
-    let found = Stability::search(&LateralModel::new(case), case.model.speed_range).unwrap();
+    let found = Stability::by_spectra(&LateralModel::new(case), case.model.speed_range).unwrap();
     found.critical_speed().unwrap() / MPH
 }
 

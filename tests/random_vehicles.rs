@@ -5,11 +5,13 @@ mod support;
 
 use bogie::{
     case::Case,
-    dynamics::{LateralModel, Poles, VerticalModel, eigenvalues},
+    dynamics::{LateralModel, VerticalModel},
     evaluate::{
-        Evaluation, critical_speed::Stability, damping_range::DampingRange, integration::integrate,
-        panels::panels, response::Response,
+        Evaluation,
+        ride::{panels::response_panels, response::Response},
+        stability::{DampingRange, Stability},
     },
+    numerics::{Poles, eigenvalues, quadrature::integrate},
     parameter::Parameter,
 };
 use rand::SeedableRng;
@@ -153,7 +155,7 @@ fn refinement_changes_nothing() {
         }
         for model in [lateral.forced, VerticalModel::new(&case).forced] {
             let outputs = model.outputs.len();
-            let edges = panels(&model, &case, &Poles::at(&model, speed).unwrap());
+            let edges = response_panels(&model, &case, &Poles::at(&model, speed).unwrap());
             let [coarse, fine] = [1e-6, 1e-12].map(|tolerance| {
                 let mut response = Response::new(&model, &case.service.track, speed);
                 integrate(&edges, [outputs; 2], tolerance, |f, v| {
@@ -220,7 +222,7 @@ fn an_instability_that_is_born_and_dies_between_two_speeds_is_found() {
         let damping = least_damping(&model, &speeds);
         let first = damping.iter().position(|z| *z < 0.0).expect(&what);
         let followed = Stability::of(&case).unwrap();
-        let searched = Stability::search(&model, [low, high]).unwrap();
+        let searched = Stability::by_spectra(&model, [low, high]).unwrap();
         for found in [followed, searched] {
             let critical = found.critical_speed().expect(&what);
             // Rounding of the scan's own speeds.
@@ -257,7 +259,7 @@ fn agrees_with_the_scan(what: &str, case: &Case, speed: f64) {
     let rise = beside.map(|i| damping[i] - least);
     // 1e-9: the search ends where a step changes ζ by less than 1e-11.
     let (most, fewest) = (least + 1e-9, least - rise[0].max(rise[1]) - 1e-9);
-    let mut found = vec![DampingRange::search(&model, [low, speed], f64::INFINITY).unwrap()];
+    let mut found = vec![DampingRange::by_spectra(&model, [low, speed], f64::INFINITY).unwrap()];
     if least < 0.05 {
         let poles = Poles::at(&model.forced, case.service.speed).unwrap();
         found.push(DampingRange::new(&model, &poles, [low, speed], 0.05).unwrap());

@@ -5,14 +5,12 @@ mod support;
 
 use bogie::{
     case::Case,
-    dynamics::{Excitation, ForcedModel, LinearSystem, Output, Poles, Row, VerticalModel},
+    dynamics::{Excitation, ForcedModel, Output, Row, VerticalModel},
     evaluate::{
         Evaluation,
-        integration::integrate,
-        panels::panels,
-        response::Response,
-        ride::{NoRide, VerticalRide},
+        ride::{NoRide, VerticalRide, panels::response_panels, response::Response},
     },
+    numerics::{LinearSystem, Poles, quadrature::integrate},
     track::Irregularity,
 };
 use nalgebra::Complex;
@@ -98,7 +96,7 @@ fn one_mass_of_any_damping() {
             };
             let model = mass.model(&case);
             let poles = Poles::at(&model, speed).unwrap();
-            let edges = panels(&model, &case, &poles);
+            let edges = response_panels(&model, &case, &poles);
             let mut response = Response::new(&model, &case.service.track, speed);
             let found = integrate(&edges, [1, 1], 1e-6, |f, v| response.densities(f, v));
             assert!(found.converged);
@@ -156,7 +154,7 @@ fn halved_panels_change_nothing() {
         let case = numerics(name).case;
         let model = VerticalModel::new(&case).forced;
         let speed = case.service.speed;
-        let edges = panels(&model, &case, &Poles::at(&model, speed).unwrap());
+        let edges = response_panels(&model, &case, &Poles::at(&model, speed).unwrap());
         let mut halved = edges.clone();
         halved.extend(edges.windows(2).map(|ends| f64::midpoint(ends[0], ends[1])));
         halved.sort_by(f64::total_cmp);

@@ -5,11 +5,10 @@ use std::{fmt::Write, fs};
 
 use bogie::{
     case::Case,
-    export::number::both,
     index::{Index, Sense},
     parameter::Parameter,
     spec::keys::{self, ENTRIES, Need, TABLES},
-    units::{Quantity, Range},
+    units::{Quantity, Range, number::both},
 };
 
 /// What a value is, with examples in both unit systems.

@@ -5,16 +5,18 @@ mod support;
 
 use bogie::{
     case::{Case, CurvingCreep},
-    dynamics::{LateralModel, Poles, VerticalModel, elimination::LANES},
+    dynamics::{LateralModel, VerticalModel},
     evaluate::{
         Evaluation,
-        critical_speed::Stability,
-        integration::integrate,
-        panels::panels,
-        response::{Response, plain},
+        ride::{
+            panels::response_panels,
+            response::{Response, plain},
+        },
+        stability::Stability,
         warnings::warnings,
     },
     export,
+    numerics::{Poles, elimination::LANES, quadrature::integrate},
     spec::{Spec, keys},
     track::{Spectrum, Track, curvature_of_degree},
     units::{DisplayUnit, Quantity},
@@ -451,7 +453,7 @@ fn critical_speeds_are_those_of_full_spectra() {
             let case = vehicle(seed);
             let model = LateralModel::new(&case);
             let fast = Stability::of(&case).unwrap();
-            let plain = Stability::search(&model, case.model.speed_range).unwrap();
+            let plain = Stability::by_spectra(&model, case.model.speed_range).unwrap();
             assert_eq!(
                 fast.unstable_at_start, plain.unstable_at_start,
                 "vehicle {seed}"
@@ -487,7 +489,7 @@ fn refinement_changes_nothing() {
                 continue;
             }
             let outputs = model.outputs.len();
-            let edges = panels(&model, &case, &poles);
+            let edges = response_panels(&model, &case, &poles);
             let halves = edges.windows(2).map(|ends| (ends[0] * ends[1]).sqrt());
             let mut finer: Vec<f64> = edges.iter().copied().chain(halves).collect();
             finer.sort_by(f64::total_cmp);

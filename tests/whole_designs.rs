@@ -6,8 +6,9 @@ mod support;
 use bogie::{
     case::Case,
     design::{margin::margins, outcome::DesignResult, procedure::design, search, study::Study},
-    dynamics::{LateralModel, eigenvalues},
+    dynamics::LateralModel,
     index::{Index, Scale, Sense},
+    numerics::eigenvalues,
     optimize::{
         archive::{Archive, Silent},
         local::Status,

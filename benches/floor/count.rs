@@ -1,6 +1,6 @@
 //! Operations of an elimination that goes from the wheelsets to the carbody.
 
-use bogie::dynamics::LinearSystem;
+use bogie::numerics::LinearSystem;
 
 /// What an elimination works on: entries of the matrix and of its factors.
 pub struct Elimination {

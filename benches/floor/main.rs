@@ -11,17 +11,16 @@ use std::{hint::black_box, time::Instant};
 
 use bogie::{
     case::Case,
-    dynamics::{
-        ForcedModel, LateralModel, Pairs, Poles, Refiner, VerticalModel,
-        elimination::{LANES, Lanes},
-    },
+    dynamics::{ForcedModel, LateralModel, VerticalModel},
     evaluate::{
-        critical_speed::Stability,
         curving::CurvingLimits,
-        integration::integrate,
-        panels::panels,
-        response::Response,
-        ride::{LateralRide, VerticalRide},
+        ride::{LateralRide, VerticalRide, panels::response_panels, response::Response},
+        stability::Stability,
+    },
+    numerics::{
+        Eigenpairs, Poles, Refiner,
+        elimination::{LANES, Lanes},
+        quadrature::integrate,
     },
 };
 use count::Elimination;
@@ -43,7 +42,7 @@ fn batches(model: &ForcedModel, case: &Case, poles: &Poles) -> f64 {
     let mut count = 0;
     // To the tolerance of the ride.
     integrate(
-        &panels(model, case, poles),
+        &response_panels(model, case, poles),
         [model.outputs.len(); 2],
         1e-6,
         |f, values| {
@@ -111,7 +110,7 @@ fn main() {
     let system = &lateral.forced.system;
     let mut refiner = Refiner::new(lateral.forced.stiffness());
     let s = lateral_poles.values[0] * 1.001;
-    let mut pairs = Pairs::near(
+    let mut pairs = Eigenpairs::near(
         Lanes::from_fn(|_| s),
         [case.service.speed; LANES],
         system.order(),

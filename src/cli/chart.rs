@@ -2,12 +2,11 @@
 
 use std::{fmt::Write, path::Path};
 
-use bogie::chart::{
-    Drawing, Figure, System, Theme,
-    book::{self, BOOK, Entry, Workbook},
-    table,
+use bogie::{
+    chart::{self as book, BOOK, Entry, Workbook},
+    export::{figure::tables, origin::sign},
+    plot::{Drawing, Figure, System, Theme},
 };
-use bogie::export::origin::sign;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -172,9 +171,9 @@ fn draw(entry: &Entry, figure: &Figure, wanted: &[ChartFile]) -> Result<Vec<File
         match kind {
             ChartFile::Svg => add(".svg", drawing.svg(Theme::Print).into_bytes()),
             #[cfg(feature = "png")]
-            ChartFile::Png => add(".png", bogie::chart::png::png(&drawing).map_err(failed)?),
+            ChartFile::Png => add(".png", bogie::plot::png::png(&drawing).map_err(failed)?),
             ChartFile::Csv => {
-                for (panel, table) in table::tables(figure) {
+                for (panel, table) in tables(figure) {
                     let panel = if panel.is_empty() {
                         panel
                     } else {

@@ -40,7 +40,7 @@ impl Line {
     }
 }
 
-impl bogie::chart::book::Progress for Line {
+impl bogie::chart::Progress for Line {
     fn done(&self, count: usize) {
         self.0.inc(count as u64);
     }

@@ -18,7 +18,7 @@
 //! all are weighed together; if not, they are left out.
 
 use super::{
-    lifted::{Lifted, solve_lifted},
+    epigraph::{EpigraphSolution, solve_with_epigraph},
     missed::{Missed, Reached},
     study::{Rank, Role, Study, Term},
 };
@@ -35,13 +35,13 @@ use crate::optimize::{
 ///
 /// # Errors
 ///
-/// [`NoDesign`] if not one design could be evaluated.
+/// [`NoDesign`] if no design could be evaluated.
 pub fn compromise(
     study: &Study,
     start: &Start,
     found: &Solved,
     archive: &Archive,
-) -> Result<(Lifted, Vec<Missed>), NoDesign> {
+) -> Result<(EpigraphSolution, Vec<Missed>), NoDesign> {
     let n = study.parameters().len();
     let mut descent = Descent {
         study,
@@ -74,19 +74,19 @@ pub fn compromise(
     Ok(found)
 }
 
-/// The best objective beside demands that are missed, from the design at `x`, which misses no others; and
-/// these demands with what they reach there.
+/// The best objective with missed demands relaxed, from the design at `x`, which misses no others; and
+/// these demands with the values reached there.
 ///
 /// # Errors
 ///
-/// [`NoDesign`] if not one design could be evaluated.
+/// [`NoDesign`] if no design could be evaluated.
 pub fn best_beside(
     study: &Study,
     start: &Start,
     x: Vec<f64>,
     mut missed: Vec<Missed>,
     archive: &Archive,
-) -> Result<(Lifted, Vec<Missed>), NoDesign> {
+) -> Result<(EpigraphSolution, Vec<Missed>), NoDesign> {
     let n = study.parameters().len();
     let mut last = best_of_relaxed(&relax(study, &missed), start, x, archive)?;
     for missed in &mut missed {
@@ -104,8 +104,8 @@ pub fn best_beside(
     Ok((last, missed))
 }
 
-/// Demands of a study that are missed at `x` beside some known ones: they hold nothing, and form a group
-/// behind these.
+/// Demands of a study that are missed at `x` beside known missed ones. They have no share in the
+/// conflict and form a group of their own behind the known ones.
 pub fn also_missed(study: &Study, known: &[Missed], x: &[f64]) -> Vec<Missed> {
     let group = known.iter().map(|missed| missed.group + 1).max();
     let open = study.with_roles(|i, term| {
@@ -121,7 +121,7 @@ pub fn also_missed(study: &Study, known: &[Missed], x: &[f64]) -> Vec<Missed> {
         let group = group.unwrap_or_default();
         reached.unheld(study, [term, k], group)
     });
-    // What is short within the tolerance would leave no design either.
+    // A shortfall within the tolerance would leave no design either.
     all.filter(|missed| missed.violation() > 0.0).collect()
 }
 
@@ -137,8 +137,8 @@ struct Descent<'a> {
 }
 
 impl Descent<'_> {
-    /// Makes the violations of the demands of some ranks as small as can be, the largest first, while
-    /// those of other ranks are kept.
+    /// Lexicographic minimax of the violations of the demands of some ranks, the largest first, with the
+    /// demands of other ranks as constraints.
     fn reduce(&mut self, ranks: &[Rank], kept: &[Rank]) -> Result<(), NoDesign> {
         let n = self.x.len();
         while self.archive.stopped().is_none() {
@@ -147,7 +147,7 @@ impl Descent<'_> {
                 break;
             }
             let from = self.start.clone().with(vec![self.x.clone()]);
-            let closest = solve_lifted(&open, &from, self.archive)?;
+            let closest = solve_with_epigraph(&open, &from, self.archive)?;
             self.effort.add(&closest.solved.effort);
             self.x = closest.solved.point.x[..n].to_vec();
             let held = match &closest.solved.point.values {
@@ -165,12 +165,12 @@ impl Descent<'_> {
     }
 }
 
-/// Scaled coordinates of a design that meets all demands of a study, sought from one that does not;
-/// `None` if none was found.
+/// Scaled coordinates of a design that meets all demands of a study, searched from one that does not;
+/// `None` if the search finds none.
 ///
 /// # Errors
 ///
-/// [`NoDesign`] if not one design could be evaluated.
+/// [`NoDesign`] if no design could be evaluated.
 pub fn feasible(
     study: &Study,
     start: &Start,
@@ -179,7 +179,7 @@ pub fn feasible(
 ) -> Result<Option<Vec<f64>>, NoDesign> {
     let n = study.parameters().len();
     let from = start.clone().with(vec![found.point.x[..n].to_vec()]);
-    let closest = solve_lifted(&shortfall(study), &from, archive)?;
+    let closest = solve_with_epigraph(&shortfall(study), &from, archive)?;
     let x = closest.solved.point.x[..n].to_vec();
     let meets_all = study.evaluate(&x).is_ok_and(|values| values.feasible());
     Ok(meets_all.then_some(x))
@@ -191,15 +191,15 @@ fn best_of_relaxed(
     start: &Start,
     x: Vec<f64>,
     archive: &Archive,
-) -> Result<Lifted, NoDesign> {
+) -> Result<EpigraphSolution, NoDesign> {
     let start = start.clone().plainly().with(vec![x.clone()]);
-    let found = solve_lifted(relaxed, &start, archive)?;
+    let found = solve_with_epigraph(relaxed, &start, archive)?;
     let values = relaxed.evaluate(&x);
     if found.solved.point.feasible() || !values.as_ref().is_ok_and(Values::feasible) {
         return Ok(found);
     }
     // The search has lost the design that it began from.
-    Ok(Lifted {
+    Ok(EpigraphSolution {
         study: relaxed.clone(),
         solved: Solved {
             point: Point { x, values },
@@ -230,9 +230,9 @@ fn as_objective(term: &Term) -> Role {
     }
 }
 
-/// The demands of some ranks that are not missed as the objective; those of other ranks, and missed
-/// ones with relaxed bounds, as constraints; and the numbers that the terms of the objective, which
-/// come first, have in the study.
+/// Study with the demands of some ranks that are not yet missed as the objective, and the demands of
+/// other ranks, and missed ones with relaxed bounds, as constraints; with the numbers, in the original
+/// study, of the objective's terms, which come first.
 fn open_shortfall(
     study: &Study,
     ranks: &[Rank],
@@ -254,7 +254,7 @@ fn open_shortfall(
     (open.and_terms_of(&bounds), terms)
 }
 
-/// Whether the model does not cover a term: it is a force or stroke in a curve that is not brought
+/// True if the model does not cover a term: it is a force or stroke in a curve that is not brought
 /// within the model.
 fn is_void(study: &Study, term: &Term, missed: &[Missed]) -> bool {
     let is_outside = |m: &Missed| {
@@ -264,8 +264,8 @@ fn is_void(study: &Study, term: &Term, missed: &[Missed]) -> bool {
     term.index.is_in_service_curve() && missed.iter().any(is_outside)
 }
 
-/// The study with the bounds of missed demands relaxed to what they reach. Terms that the model does
-/// not cover and missed demands without a value are left out.
+/// The study with the bounds of missed demands relaxed to the values reached. Terms that the model does
+/// not cover, and missed demands without a value, are left out.
 fn relax(study: &Study, missed: &[Missed]) -> Study {
     study.with_roles(|i, term| match missed.iter().find(|m| m.term == i) {
         _ if is_void(study, term, missed) => None,
@@ -280,7 +280,7 @@ fn relaxed_role(missed: &Missed) -> Option<Role> {
 }
 
 /// Objective terms, by number, that hold one another at the least shortfall, with their shares.
-fn holding(closest: &Lifted, values: &Values, terms: usize) -> Vec<(usize, f64)> {
+fn holding(closest: &EpigraphSolution, values: &Values, terms: usize) -> Vec<(usize, f64)> {
     /// Without multipliers, as where no variable is left: shortfalls within this of the largest.
     const NEAR: f64 = 1e-3;
     let certificate = closest.solved.certificate.as_ref();
@@ -299,7 +299,7 @@ fn holding(closest: &Lifted, values: &Values, terms: usize) -> Vec<(usize, f64)>
         }
     }
     if let Some(certificate) = certificate {
-        share_lifted_speed(&closest.study, values, certificate, &mut shares);
+        share_epigraph_speed(&closest.study, values, certificate, &mut shares);
     }
     let total: f64 = shares.iter().filter(|share| **share > HOLDS).sum();
     let numbered = shares.into_iter().enumerate();
@@ -309,18 +309,18 @@ fn holding(closest: &Lifted, values: &Values, terms: usize) -> Vec<(usize, f64)>
         .collect()
 }
 
-/// Gives the share of the lifted speed, which is one variable for all conditions, to those whose damping
-/// holds it.
-fn share_lifted_speed(
+/// Distributes the share of the epigraph speed, one variable for all conditions, over the conditions whose
+/// damping limits it.
+fn share_epigraph_speed(
     study: &Study,
     values: &Values,
     certificate: &Certificate,
     shares: &mut [f64],
 ) {
-    let lifted: Vec<usize> = (0..shares.len())
-        .filter(|k| study.is_lifted_term(*k))
+    let epigraph: Vec<usize> = (0..shares.len())
+        .filter(|k| study.is_epigraph_term(*k))
         .collect();
-    let speed: f64 = lifted.iter().map(|k| shares[*k]).sum();
+    let speed: f64 = epigraph.iter().map(|k| shares[*k]).sum();
     let mut held = vec![0.0; shares.len()];
     let constraints = values.constraints.iter();
     for (piece, multiplier) in constraints.zip(&certificate.constraint_multipliers) {
@@ -328,9 +328,9 @@ fn share_lifted_speed(
             *held += multiplier;
         }
     }
-    let total: f64 = lifted.iter().map(|k| held[*k]).sum();
+    let total: f64 = epigraph.iter().map(|k| held[*k]).sum();
     if total > 0.0 {
-        for k in lifted {
+        for k in epigraph {
             shares[k] = speed * held[k] / total;
         }
     }

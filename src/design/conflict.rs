@@ -24,20 +24,20 @@ pub struct Conflict {
     pub demands: Vec<Opposed>,
 }
 
-/// One of the demands in conflict.
+/// A demand in conflict.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Opposed {
-    /// On what.
+    /// Index.
     pub index: Index,
     /// In which condition; `None` for the nominal one.
     pub condition: Option<String>,
-    /// What is asked for, SI.
+    /// Bound, SI.
     pub required: f64,
     /// Number of its group, from 0.
     pub group: usize,
     /// Share in the conflict: the shares of a group add up to one.
     pub share: f64,
-    /// Whether any design variable changes the index.
+    /// True if any design variable changes the index.
     pub influenced: bool,
     /// The bound, SI, at which the rest could be met if it alone gave way; `None`: the rest cannot
     /// be met even without it.
@@ -67,8 +67,8 @@ pub fn conflict(searched: &Searched, seed: u64, archive: &Archive) -> Option<Con
     (!demands.is_empty()).then_some(Conflict { demands })
 }
 
-/// The bound of one demand at which all others of its group can be met; other groups keep what they
-/// reach.
+/// The bound of one demand at which all others of its group can be met; demands of other groups are
+/// relaxed to the values reached.
 fn alone(
     searched: &Searched,
     missed: &Missed,
@@ -92,7 +92,7 @@ fn alone(
     worst(missed.index, &pieces)
 }
 
-/// One demand of a study as its objective, those of other groups relaxed, the others kept.
+/// Study with one demand as its objective, demands of other groups relaxed, the others kept.
 fn relaxing(searched: &Searched, alone: &Missed) -> Study {
     searched.asked.with_roles(|i, term| match term.role {
         Role::Objective { .. } => None,

@@ -22,7 +22,7 @@ use crate::{
 pub struct Nearby {
     /// The design.
     pub case: Case,
-    /// What it loses of each goal.
+    /// Loss of each goal.
     pub losses: Vec<Loss>,
 }
 
@@ -61,15 +61,15 @@ pub fn preferred(
     Ok(nearby.filter(|nearby| nearby.losses.iter().all(|loss| loss.share <= most)))
 }
 
-/// Scaled coordinates of the design nearest to one given. Variables take the value as given one after
-/// another, the nearest first, as long as the others can make good for it; those that are left are
-/// nearest in the sum of squares.
+/// Scaled coordinates of the design nearest to the given one. Variables are set to the given value one
+/// after another, the nearest first, as long as the others can compensate; the rest are nearest in the
+/// sum of squares.
 fn nearest(around: &Neighbourhood, near: &Near, given: &Case) -> Result<Option<Vec<f64>>, Stop> {
     let study = around.study();
     let n = around.optimum().len();
     let mut goal = study.coordinates(given);
     let count = goal.len();
-    // The lifted speed has no value as given.
+    // The epigraph speed has no value as given.
     goal.extend_from_slice(&around.optimum()[count..]);
     let aim = Aim {
         slopes: vec![0.0; n],
@@ -152,14 +152,14 @@ fn power_of_stiffness(parameter: Parameter) -> Option<f64> {
 
 /// A case in which every constant that is as given but for rounding has the bits as given.
 fn with_bits_of(given: &Case, mut case: Case) -> Case {
-    /// From a constant to a scaled coordinate and back, through frequencies and damping ratios.
-    const ROUNDING: f64 = 1e-12;
+    /// Rounding of a constant by the conversion to a scaled coordinate and back.
+    const CONSTANT_ROUNDING: f64 = 1e-12;
     for constant in Parameter::plain() {
         let key = constant.key_of_constant();
         let (Some(own), Some(kept)) = (key.get(&case), key.get(given)) else {
             continue;
         };
-        if (own - kept).abs() <= ROUNDING * kept.abs() {
+        if (own - kept).abs() <= CONSTANT_ROUNDING * kept.abs() {
             constant.set(&mut case, kept);
         }
     }

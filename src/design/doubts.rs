@@ -1,4 +1,4 @@
-//! Doubts about a design in the light of what is asked of it.
+//! Doubts about a design in the light of its demands.
 
 use crate::{
     case::Case,
@@ -6,7 +6,7 @@ use crate::{
     index::{Demand, Demands, Index},
 };
 
-/// Advice on an evaluated case, and on what its demands leave out.
+/// Advice on an evaluated case, and on indices without a demand.
 pub fn warnings(case: &Case, evaluation: &Evaluation, demands: &Demands) -> Vec<String> {
     let mut list = warnings::warnings(case, evaluation);
     list.extend(stops_in_curve(evaluation, demands));

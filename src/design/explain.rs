@@ -1,5 +1,4 @@
-//! A solved study in an engineer's terms: what holds the design back, at what price, and what the
-//! design is sensitive to.
+//! A solved study in an engineer's terms: active limits, their prices, and sensitivities.
 
 use super::{
     price::{Price, prices, relative},
@@ -17,16 +16,16 @@ use crate::{
     parameter::Parameter,
 };
 
-/// A variable and what was chosen for it.
+/// A variable and its value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chosen {
-    /// Which parameter.
+    /// Variable.
     pub parameter: Parameter,
     /// The variable with its bounds.
     pub variable: Variable,
     /// Its value, SI.
     pub value: f64,
-    /// Whether it lies on its lower or upper bound.
+    /// True if it lies on its lower or upper bound.
     pub at_bound: Option<Bound>,
     /// Relative gain of the objective per relative move outwards of the bound that it lies on.
     pub bound_price: f64,
@@ -47,7 +46,7 @@ pub enum Bound {
 /// The single index behind an objective.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Objective {
-    /// Which.
+    /// Index.
     pub index: Index,
     /// Its value, SI.
     pub value: f64,
@@ -72,15 +71,15 @@ pub struct LocalOptimum {
 /// A solved study explained.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Explained {
-    /// What was made as good as can be.
+    /// Goal: the objective in words.
     pub goal: String,
     /// The objective's index where it is a single one.
     pub objective: Option<Objective>,
     /// Σ of the scaled objectives; `None` if the design has none.
     pub merit: Option<f64>,
-    /// What was chosen.
+    /// Variables with their values.
     pub chosen: Vec<Chosen>,
-    /// How the search ended.
+    /// Status of the search.
     pub status: Status,
     /// Residual of the first-order conditions, scaled; `None` where they were not verified.
     pub kkt_residual: Option<f64>,
@@ -88,7 +87,7 @@ pub struct Explained {
     pub curvature: Option<Curvature>,
     /// Largest relative violation of a demand; `None` if the design has no performance.
     pub violation: Option<f64>,
-    /// Whether bounds of missed demands are relaxed: multipliers there tell no price and no gain.
+    /// True if bounds of missed demands are relaxed: multipliers are then neither prices nor gains.
     pub is_relaxed: bool,
     /// Limits that hold the design back, by name.
     pub active: Vec<String>,
@@ -96,9 +95,9 @@ pub struct Explained {
     pub prices: Vec<Price>,
     /// Different local optima that were found, the best first.
     pub optima: Vec<LocalOptimum>,
-    /// How far the space was searched for others; `None` where the search stayed near designs known.
+    /// Coverage of the space; `None` if the search stayed near known designs.
     pub coverage: Option<Coverage>,
-    /// What was spent.
+    /// Effort.
     pub effort: Effort,
 }
 
@@ -222,11 +221,11 @@ fn optima(study: &Study, found: &[Optimum]) -> Vec<LocalOptimum> {
 /// Pieces this close to the largest decide with it which way the objective goes.
 const TIED: f64 = 1e-6;
 
-/// Change of the objective with each scaled coordinate as that increases: of the pieces that are
-/// largest together, that of the one that gets worst. The critical speed counts as itself, whether
-/// or not the study is lifted. `None` where gradients are not known.
+/// Derivative of the objective with each scaled coordinate as that increases: of pieces that are largest
+/// together, the greatest. The critical speed counts as itself, whether
+/// or not the study has an epigraph variable. `None` where gradients are not known.
 fn objective_slopes(study: &Study, x: &[f64]) -> Option<Vec<f64>> {
-    let study = study.grounded();
+    let study = study.without_epigraph();
     let n = study.variables().len();
     let measured = study.measure(&x[..n], Detail::Gradients).ok()?;
     let mut slopes = vec![0.0; n];

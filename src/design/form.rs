@@ -13,7 +13,7 @@ use crate::{
 pub struct Line {
     /// Step of Table 4.6.1; empty for a further entry of the same step.
     pub step: &'static str,
-    /// What is entered.
+    /// Name of the entry.
     pub text: &'static str,
     /// Symbol in the report.
     pub symbol: &'static str,
@@ -152,118 +152,89 @@ fn rms(peak: Option<f64>) -> Option<f64> {
     peak.map(|p| p / PEAK)
 }
 
+/// Step, text and symbol of an entry.
+type Entry = [&'static str; 3];
+
 /// Steps 9–16.
-fn lateral(result: &DesignResult, demands: &Demands) -> Vec<Line> {
-    use Quantity::{Acceleration, Damping, Dimensionless, Frequency, Stiffness, Stroke};
-    let mass = result.case.vehicle.carbody.mass;
-    let s = &result.case.vehicle.suspension.secondary;
-    let (k, c) = (s.lateral_stiffness, s.lateral_damping);
-    let ride = result.evaluation.lateral.as_ref().ok();
-    let desired = demands.get(Index::LateralAcceleration);
-    let stroke = rms(demands.get(Index::SecondaryLateralStroke));
-    vec![
-        line(
-            "9",
-            "desired RMS lateral acceleration",
-            "ACC_L*",
-            Acceleration,
-            desired,
-        ),
-        line(
-            "10",
-            "desired RMS secondary lateral stroke",
-            "ST_L*",
-            Stroke,
-            stroke,
-        ),
-        line(
-            "11",
-            "lateral natural frequency",
-            "f_nL",
-            Frequency,
-            closed::secondary_frequency(mass, k),
-        ),
-        line(
-            "",
-            "lateral damping ratio",
-            "ξ_L",
-            Dimensionless,
-            closed::secondary_damping_ratio(mass, k, c),
-        ),
-        line("12", "secondary lateral stiffness", "K_sy", Stiffness, k),
-        line("13", "secondary lateral damping", "C_sy", Damping, c),
-        line(
-            "14d",
-            "RMS lateral acceleration",
-            "ACC_L",
-            Acceleration,
-            ride.map(|r| r.average_acceleration()),
-        ),
-        line(
-            "15d",
-            "RMS secondary lateral stroke",
-            "ST_L",
-            Stroke,
-            ride.map(|r| r.average_stroke()),
-        ),
-    ]
-}
+#[rustfmt::skip]
+const LATERAL: [Entry; 8] = [
+    ["9", "desired RMS lateral acceleration", "ACC_L*"],
+    ["10", "desired RMS secondary lateral stroke", "ST_L*"],
+    ["11", "lateral natural frequency", "f_nL"],
+    ["", "lateral damping ratio", "ξ_L"],
+    ["12", "secondary lateral stiffness", "K_sy"],
+    ["13", "secondary lateral damping", "C_sy"],
+    ["14d", "RMS lateral acceleration", "ACC_L"],
+    ["15d", "RMS secondary lateral stroke", "ST_L"],
+];
 
 /// Steps 17–24.
-fn vertical(result: &DesignResult, demands: &Demands) -> Vec<Line> {
+#[rustfmt::skip]
+const VERTICAL: [Entry; 8] = [
+    ["17", "desired RMS vertical acceleration", "ACC_v*"],
+    ["18", "desired RMS secondary vertical stroke", "ST_v*"],
+    ["19", "vertical natural frequency", "f_nv"],
+    ["", "vertical damping ratio", "ξ_v"],
+    ["20", "secondary vertical stiffness", "K_sz"],
+    ["21", "secondary vertical damping", "C_sz"],
+    ["22", "RMS vertical acceleration", "ACC_v"],
+    ["23", "RMS secondary vertical stroke", "ST_v"],
+];
+
+/// Secondary suspension of one direction: stiffness and damping `k` and `c`, acceleration and stroke
+/// `desired` and `reached`.
+fn secondary(
+    entries: [Entry; 8],
+    mass: f64,
+    [k, c]: [f64; 2],
+    desired: [Option<f64>; 2],
+    reached: Option<[f64; 2]>,
+) -> Vec<Line> {
     use Quantity::{Acceleration, Damping, Dimensionless, Frequency, Stiffness, Stroke};
-    let mass = result.case.vehicle.carbody.mass;
-    let s = &result.case.vehicle.suspension.secondary;
-    let (k, c) = (s.vertical_stiffness, s.vertical_damping);
-    let ride = result.evaluation.vertical.as_ref().ok();
-    let desired = demands.get(Index::VerticalAcceleration);
-    let stroke = rms(demands.get(Index::SecondaryVerticalStroke));
-    vec![
-        line(
-            "17",
-            "desired RMS vertical acceleration",
-            "ACC_v*",
-            Acceleration,
-            desired,
-        ),
-        line(
-            "18",
-            "desired RMS secondary vertical stroke",
-            "ST_v*",
-            Stroke,
-            stroke,
-        ),
-        line(
-            "19",
-            "vertical natural frequency",
-            "f_nv",
-            Frequency,
-            closed::secondary_frequency(mass, k),
-        ),
-        line(
-            "",
-            "vertical damping ratio",
-            "ξ_v",
+    let values = [
+        (Acceleration, desired[0]),
+        (Stroke, rms(desired[1])),
+        (Frequency, Some(closed::secondary_frequency(mass, k))),
+        (
             Dimensionless,
-            closed::secondary_damping_ratio(mass, k, c),
+            Some(closed::secondary_damping_ratio(mass, k, c)),
         ),
-        line("20", "secondary vertical stiffness", "K_sz", Stiffness, k),
-        line("21", "secondary vertical damping", "C_sz", Damping, c),
-        line(
-            "22",
-            "RMS vertical acceleration",
-            "ACC_v",
-            Acceleration,
-            ride.map(|r| r.average_acceleration()),
-        ),
-        line(
-            "23",
-            "RMS secondary vertical stroke",
-            "ST_v",
-            Stroke,
-            ride.map(|r| r.average_stroke()),
-        ),
-    ]
+        (Stiffness, Some(k)),
+        (Damping, Some(c)),
+        (Acceleration, reached.map(|[acceleration, _]| acceleration)),
+        (Stroke, reached.map(|[_, stroke]| stroke)),
+    ];
+    let lines = entries.into_iter().zip(values);
+    lines
+        .map(|([step, text, symbol], (quantity, value))| line(step, text, symbol, quantity, value))
+        .collect()
+}
+
+fn lateral(result: &DesignResult, demands: &Demands) -> Vec<Line> {
+    let vehicle = &result.case.vehicle;
+    let s = &vehicle.suspension.secondary;
+    let ride = result.evaluation.lateral.as_ref().ok();
+    secondary(
+        LATERAL,
+        vehicle.carbody.mass,
+        [s.lateral_stiffness, s.lateral_damping],
+        [Index::LateralAcceleration, Index::SecondaryLateralStroke].map(|index| demands.get(index)),
+        ride.map(|ride| [ride.average_acceleration(), ride.average_stroke()]),
+    )
+}
+
+fn vertical(result: &DesignResult, demands: &Demands) -> Vec<Line> {
+    let vehicle = &result.case.vehicle;
+    let s = &vehicle.suspension.secondary;
+    let ride = result.evaluation.vertical.as_ref().ok();
+    secondary(
+        VERTICAL,
+        vehicle.carbody.mass,
+        [s.vertical_stiffness, s.vertical_damping],
+        [Index::VerticalAcceleration, Index::SecondaryVerticalStroke]
+            .map(|index| demands.get(index)),
+        ride.map(|ride| [ride.average_acceleration(), ride.average_stroke()]),
+    )
 }
 
 /// Step 25.

@@ -1,4 +1,4 @@
-//! How free the designer is around an optimum: the range of every variable over which a design keeps all
+//! Freedom around an optimum: the range of every variable over which a design keeps all
 //! demands and loses little of each objective, the other variables chosen anew.
 //!
 //! ```math
@@ -28,23 +28,23 @@ use crate::{
     parameter::Parameter,
 };
 
-/// Scaled coordinates this close to an end of their range are at it.
+/// Scaled distance from an end of a range within which a coordinate is at it.
 const AT_BOUND: f64 = 1e-6;
-/// Rounding of a logarithm over that of another, which keeps a coordinate off an end of its range.
-const ROUNDING: f64 = 1e-12;
-/// Ends that differ by less than this, scaled, are the same.
-const SAME: f64 = 1e-4;
+/// Rounding of a scaled coordinate: the ratio of two logarithms.
+const COORDINATE_ROUNDING: f64 = 1e-12;
+/// Scaled distance within which two ends are the same.
+const SAME_END: f64 = 1e-4;
 
 /// An end of the range over which a variable is free.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct End {
     /// Value, SI.
     pub value: f64,
-    /// What is known of it.
+    /// Certainty of the end.
     pub kind: EndKind,
 }
 
-/// What is known of an end of a range.
+/// Certainty of an end of a range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EndKind {
     /// The bound of the design space.
@@ -59,13 +59,13 @@ pub enum EndKind {
 /// The range over which a variable is free.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Free {
-    /// Which variable.
+    /// Variable.
     pub parameter: Parameter,
     /// The lower and the upper end.
     pub ends: [End; 2],
 }
 
-/// What a design loses of a goal against the optimum.
+/// Loss of a goal against the optimum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loss {
     /// Name of the goal: its index, the smaller margin of two, or a sum.
@@ -108,7 +108,7 @@ impl Target {
         shares * self.per_share()
     }
 
-    /// What is lost where the merit is another.
+    /// Loss in merit.
     fn loss(&self, merit: f64) -> Loss {
         let shares = (merit - self.merit) / self.per_share();
         let index = self.objective.map(|o| o.index);
@@ -130,7 +130,7 @@ impl Target {
 
 /// The designs around an optimum that keep all demands.
 pub struct Neighbourhood {
-    /// The lifted study where the critical speed is an objective: all of its pieces are smooth.
+    /// The epigraph study where the critical speed is an objective: all of its pieces are smooth.
     study: Study,
     /// Scaled coordinates of the optimum in it.
     optimum: Vec<f64>,
@@ -138,17 +138,17 @@ pub struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    /// Around the design of a case, the solution of a study: its objectives `together` are one goal, or
-    /// each is one. `None` if nothing varies or the design has no performance.
+    /// Designs around that of a case, the solution of a study. Its objectives are one goal `together`, or
+    /// each is a goal. `None` if no parameter varies or the design has no performance.
     pub fn new(study: &Study, case: &Case, together: bool) -> Option<Self> {
         if study.parameters().is_empty() {
             return None;
         }
-        let mut study = study.grounded();
+        let mut study = study.without_epigraph();
         let x: Vec<f64> = study
             .coordinates(case)
             .into_iter()
-            .map(|x| onto_bound(x, ROUNDING))
+            .map(|x| onto_bound(x, COORDINATE_ROUNDING))
             .collect();
         let values = study.evaluate(&x).or_else(|failure| {
             study = with_values(&study, &Start::near(vec![x.clone()]));
@@ -163,8 +163,8 @@ impl Neighbourhood {
         if targets.is_empty() {
             return None;
         }
-        let (study, optimum) = match study.lifted() {
-            Some(lifted) => (lifted, study.lift(&x).ok()?),
+        let (study, optimum) = match study.with_epigraph() {
+            Some(own) => (own, study.epigraph_start(&x).ok()?),
             None => (study, x),
         };
         Some(Self {
@@ -194,9 +194,9 @@ impl Neighbourhood {
         goals.collect()
     }
 
-    /// What a case loses of each goal. `None` if it has no performance.
+    /// Loss of each goal at a case. `None` if it has no performance.
     pub fn losses(&self, case: &Case) -> Option<Vec<Loss>> {
-        let plain = self.study.grounded();
+        let plain = self.study.without_epigraph();
         let values = plain.evaluate(&plain.coordinates(case)).ok()?;
         let losses = self.targets.iter().map(|target| {
             let merit = sum(&values, &target.groups)?;
@@ -241,7 +241,7 @@ impl Neighbourhood {
                 };
                 let verified = ends[k]
                     .as_ref()
-                    .is_some_and(|end| end.is_optimal && (end.x[i] - x).abs() <= SAME);
+                    .is_some_and(|end| end.is_optimal && (end.x[i] - x).abs() <= SAME_END);
                 let bound = if k == 0 { x } else { 1.0 - x };
                 End {
                     value: self.study.variables()[i].value(x),

@@ -1,4 +1,4 @@
-//! How a design stands to what is asked of it, in every condition.
+//! Margins of a design against its demands, in every condition.
 
 use rayon::prelude::*;
 
@@ -11,16 +11,16 @@ use crate::{
     spec::Condition,
 };
 
-/// A demand and what a design reaches.
+/// A demand and the value that a design reaches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Margin {
-    /// On what.
+    /// Index.
     pub index: Index,
     /// In which condition; `None` for the nominal one.
     pub condition: Option<String>,
-    /// What is asked for, SI.
+    /// Bound, SI.
     pub required: f64,
-    /// What is reached, SI, or why there is no such performance.
+    /// Value reached, SI, or the reason why there is none.
     pub reached: Result<f64, Failure>,
     /// Status of the curve of the service, where the model does not cover it and the demand is on a
     /// force or stroke there.
@@ -29,7 +29,7 @@ pub struct Margin {
     pub curve_ratio: Option<f64>,
 }
 
-/// How a design stands to a demand.
+/// Verdict on a demand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// It keeps the bound.
@@ -48,7 +48,7 @@ impl Margin {
         }
     }
 
-    /// How the design stands to it.
+    /// Verdict on the design.
     pub fn verdict(&self) -> Verdict {
         match self.reached {
             Ok(reached) if self.demand().met_by(reached) => Verdict::Met,
@@ -57,14 +57,14 @@ impl Margin {
         }
     }
 
-    /// Whether the demand is met.
+    /// True if the demand is met.
     pub fn met(&self) -> bool {
         self.verdict() == Verdict::Met
     }
 
-    /// How far the value reached falls short of the bound, relative, or as it is for damping ratios;
-    /// 0 if the demand is met. A demand that is not assessed counts as further off than any value, the
-    /// more the further the curve is outside the model; one without a value as infinitely far.
+    /// Shortfall of the value reached against the bound, relative, or absolute for damping ratios; 0 if
+    /// the demand is met. The shortfall of a demand that is not assessed is larger than that of any value
+    /// and grows with the distance of the curve from the model's limits; without a value it is infinite.
     pub fn shortfall(&self) -> f64 {
         /// More than any value falls short by.
         const NOT_ASSESSED: f64 = 1e9;

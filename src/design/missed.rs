@@ -1,4 +1,4 @@
-//! Demands that no design was found to meet together with the rest, and what is reached of them.
+//! Demands that no design found meets together with the rest, and the values reached.
 
 use super::{
     measure::worst,
@@ -17,7 +17,7 @@ use crate::{
 pub struct Missed {
     /// Number of its term in the study.
     pub term: usize,
-    /// On what.
+    /// Index.
     pub index: Index,
     /// In which condition; `None` for the nominal one.
     pub condition: Option<String>,
@@ -27,9 +27,9 @@ pub struct Missed {
     pub reached: Option<f64>,
     /// Number of the group of demands that hold one another, from 0: the worst violated first.
     pub group: usize,
-    /// Share in the conflict: the shares of a group add up to one; 0 if it holds nothing.
+    /// Share in the conflict: the shares of a group add up to one; 0 for a demand that is not active.
     pub share: f64,
-    /// Whether any design variable changes the index.
+    /// True if any design variable changes the index.
     pub influenced: bool,
 }
 
@@ -41,7 +41,7 @@ impl Missed {
         }
     }
 
-    /// Whether the value reached counts as meeting the demand.
+    /// True if the value reached counts as meeting the demand.
     pub fn met(&self) -> bool {
         self.reached
             .is_some_and(|reached| self.demand().met_by(reached))
@@ -76,7 +76,7 @@ pub(super) struct Reached<'a> {
 }
 
 impl<'a> Reached<'a> {
-    /// Of the study's demands at scaled coordinates `x`.
+    /// Values reached of the study's demands at scaled coordinates `x`.
     pub fn new(open: &'a Study, x: &[f64]) -> Self {
         Self {
             open,
@@ -104,7 +104,7 @@ impl<'a> Reached<'a> {
         }
     }
 
-    /// As [`Reached::missed`], of a demand that holds nothing.
+    /// As [`Reached::missed`], of a demand without a share in the conflict.
     pub fn unheld(&self, study: &Study, [term, k]: [usize; 2], group: usize) -> Missed {
         let Role::Objective { origin, .. } = self.open.terms()[k].role else {
             unreachable!("the terms of a shortfall are objectives")
@@ -122,7 +122,7 @@ impl<'a> Reached<'a> {
         }
     }
 
-    /// Whether a variable changes term `k`: at this design or at some others spread over the box.
+    /// True if a variable changes term `k`: at this design or at some others spread over the box.
     fn is_influenced(&self, k: usize) -> bool {
         /// Designs beside this one: more than any box has corners in two variables.
         const OTHERS: usize = 6;

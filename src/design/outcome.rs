@@ -1,4 +1,4 @@
-//! What the design procedure hands over.
+//! Result of the design procedure.
 
 use rayon::prelude::*;
 
@@ -10,9 +10,9 @@ use super::{
 };
 use crate::{
     case::Case,
-    dynamics::EigenError,
     evaluate::Evaluation,
     index::Index,
+    numerics::EigenError,
     optimize::{
         archive::Stop,
         local::Status,
@@ -23,10 +23,10 @@ use crate::{
     spec::{Condition, Spec},
 };
 
-/// What one trade-off gave, or all at once.
+/// Result of one trade-off, or of all at once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StageResult {
-    /// Which trade-off; `None` for all at once.
+    /// Trade-off; `None` for all at once.
     pub trade_off: Option<TradeOff>,
     /// The solution explained.
     pub explained: Explained,
@@ -37,7 +37,7 @@ pub struct StageResult {
 }
 
 impl StageResult {
-    /// Why no design could be evaluated, if none could.
+    /// Reason why no design could be evaluated.
     pub fn failure(&self) -> Option<Failure> {
         match self.explained.status {
             Status::Failed(failure) => Some(failure),
@@ -46,14 +46,14 @@ impl StageResult {
     }
 }
 
-/// The best that one of several wheel profiles allows.
+/// Best design with one of several wheel profiles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     /// λ.
     pub conicity: f64,
-    /// How its search ended.
+    /// Status of its search.
     pub status: Status,
-    /// How far the space was searched; `None` where the search stayed near designs known.
+    /// Coverage of the space; `None` if the search stayed near known designs.
     pub coverage: Option<Coverage>,
     /// Critical speed, m/s; `None`: stable over the range searched.
     pub critical_speed: Option<f64>,
@@ -67,7 +67,7 @@ pub struct Profile {
     pub(super) case: Case,
 }
 
-/// What the joint optimisation gained over the sequential one.
+/// Gain of the joint optimisation over the sequential one.
 #[derive(Debug, Clone)]
 pub struct Joint {
     /// Its solution.
@@ -125,10 +125,10 @@ pub(super) fn half_kalker(case: &Case) -> Result<Evaluation, EigenError> {
     Evaluation::new(&half)
 }
 
-/// Which of the designs found is delivered.
+/// Origin of the design delivered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Delivered {
-    /// That of the trade-offs in turn.
+    /// The trade-offs in turn.
     InTurn,
     /// That of all parameters at once: asked for, or because in turn demands are missed that it
     /// meets or comes closer to.
@@ -146,7 +146,7 @@ pub struct DesignResult {
     pub case: Case,
     /// The case of the optimum, to which certificates and prices belong.
     pub optimum: Case,
-    /// What the design delivered loses of each goal against the optimum; empty if it is the optimum.
+    /// Loss of each goal of the design delivered against the optimum; empty if it is the optimum.
     pub losses: Vec<Loss>,
     /// The ranges over which the variables are free; empty where demands are missed.
     pub free: Vec<Free>,
@@ -158,32 +158,32 @@ pub struct DesignResult {
     pub half_kalker: Evaluation,
     /// Its performance in the further conditions.
     pub conditions: Vec<InCondition>,
-    /// Which of the designs found it is.
+    /// Origin of the design.
     pub delivered: Delivered,
     /// The trade-offs in the order of the procedure, or all at once.
     pub stages: Vec<StageResult>,
     /// Rounds of the coupling loop; 0 for all at once.
     pub rounds: usize,
-    /// Whether the last round changed nothing any more.
+    /// True if the last round changed no variable.
     pub settled: bool,
     /// The joint optimisation beside the sequential one.
     pub joint: Option<Joint>,
-    /// Every demand and what is reached.
+    /// Every demand and the value reached.
     pub margins: Vec<Margin>,
-    /// Which demands conflict, where some are not met.
+    /// Demands in conflict, if some are not met.
     pub conflict: Option<Conflict>,
-    /// What was spent in all.
+    /// Effort of all stages.
     pub effort: Effort,
-    /// Why the run ended early, if it did.
+    /// Reason for an early end of the run.
     pub stopped: Option<Stop>,
 }
 
 impl DesignResult {
-    /// A spec's design as it stands, with nothing searched for.
+    /// Result for a spec's design as given, without a search.
     ///
     /// # Errors
     ///
-    /// [`EigenError`] if the eigenvalues of a model cannot be had.
+    /// [`EigenError`] if the eigenvalues of a model do not converge.
     pub fn as_given(spec: &Spec) -> Result<Self, EigenError> {
         let evaluation = Evaluation::new(&spec.case)?;
         Ok(Self {
@@ -208,13 +208,13 @@ impl DesignResult {
     }
 
     /// The largest relative loss of a goal against the optimum: of an index, or of a sum of relative
-    /// changes; 0 if the design delivered is the optimum or loses nothing.
+    /// changes; 0 if the design delivered is the optimum or has no loss.
     pub fn loss(&self) -> f64 {
         let losses = self.losses.iter().map(|loss| loss.share);
         losses.fold(0.0, f64::max)
     }
 
-    /// Whether the design delivered is the optimum itself.
+    /// True if the design delivered is the optimum itself.
     pub fn is_optimum(&self) -> bool {
         self.losses.is_empty()
     }
@@ -224,14 +224,14 @@ impl DesignResult {
         self.free.iter().find(|free| free.parameter == parameter)
     }
 
-    /// Whether the trade-offs in turn miss what the delivered design, all at once, meets or comes
-    /// closer to.
+    /// True if the trade-offs in turn miss a demand that the delivered design, all at once, meets or
+    /// comes closer to.
     pub fn joint_in_place_of_sequence(&self) -> bool {
         self.delivered == Delivered::AllAtOnce && self.joint.is_some()
     }
 
-    /// The stages that led to the design delivered; if that is the one as given, those that led to
-    /// no better one.
+    /// The stages that led to the design delivered; for the given design, the stages that found no better
+    /// one.
     pub fn delivered_stages(&self) -> impl Iterator<Item = &StageResult> {
         let is = |delivered| self.delivered == delivered;
         let joint = self.joint.as_ref().filter(|_| is(Delivered::AllAtOnce));
@@ -249,7 +249,7 @@ impl DesignResult {
         self.margins.iter().filter(|m| !m.met())
     }
 
-    /// Whether all demands are met, by a design that every search could evaluate.
+    /// True if all demands are met, by a design that every search could evaluate.
     pub fn met(&self) -> bool {
         self.unmet().next().is_none() && self.failure().is_none()
     }

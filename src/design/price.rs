@@ -1,4 +1,4 @@
-//! What the demands that hold a design back cost.
+//! Prices of the active demands.
 
 use super::{search::Searched, study::Role};
 use crate::{
@@ -12,7 +12,7 @@ use crate::{
 /// A demand that holds the design back.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Price {
-    /// On what.
+    /// Index.
     pub index: Index,
     /// In which conditions the bound holds the design back; `None` for the nominal one. Conditions that
     /// share a bound share its price.

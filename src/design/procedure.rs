@@ -1,9 +1,9 @@
 //! The design procedure: three trade-offs in the order of Figure 4.2.1 with the coupling loop, and
 //! all at once.
 //!
-//! The vertical trade-off depends on nothing that the others choose, so it comes first and once
-//! (its K_sz is part of the lateral model's roll stiffness). Stability–curving and the lateral
-//! trade-off then alternate until neither changes anything.
+//! The vertical trade-off does not depend on the others' variables, so it comes first and once (its
+//! K_sz is part of the lateral model's roll stiffness). Stability–curving and the lateral trade-off
+//! then alternate until neither changes a variable.
 
 use std::time::Instant;
 
@@ -21,9 +21,9 @@ use super::{
 };
 use crate::{
     case::Case,
-    dynamics::EigenError,
     evaluate::Evaluation,
     index::Index,
+    numerics::EigenError,
     optimize::{
         archive::{Archive, Stop},
         problem::Problem,
@@ -34,14 +34,14 @@ use crate::{
 };
 
 /// Rounds of the coupling loop.
-const ROUNDS: usize = 10;
-/// Change of every scaled variable below which a round changed nothing.
+const MAX_ROUNDS: usize = 10;
+/// Change of a scaled variable that counts as none.
 const UNCHANGED: f64 = 1e-4;
 
-/// Why there is no design.
+/// Reason why there is no design.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DesignError {
-    /// Nothing to choose.
+    /// No open parameter.
     #[error("nothing is open to design: give bounds in [design]")]
     NothingOpen,
     /// Open stiffnesses without anything to judge them by.
@@ -60,14 +60,15 @@ pub enum DesignError {
 ///
 /// # Errors
 ///
-/// [`DesignError`] where there is nothing to choose or nothing to choose by. Requirements that
+/// [`DesignError`] without an open parameter, or without an objective. Requirements that
 /// cannot be met are no error: the result holds the best compromise and says what is not met.
 pub fn design(spec: &Spec, archive: &Archive) -> Result<DesignResult, DesignError> {
     design_beside(spec, archive, |_| ()).map(|(result, ())| result)
 }
 
-/// As [`design`], with the result of `beside` for the delivered design, side by side with what does not
-/// decide it: all at once where that is only to compare, and the ranges of the variables.
+/// As [`design`], with the result of `beside` for the delivered design. It runs side by side with the
+/// parts that do not decide the design: the joint optimisation for comparison, and the ranges of the
+/// variables.
 ///
 /// # Errors
 ///
@@ -199,7 +200,7 @@ impl Procedure<'_> {
         Start::everywhere(self.spec.design.seed).until(self.spec.design.unseen)
     }
 
-    /// The designs around the optimum. `None` where there is none: demands are missed, or nothing varies.
+    /// Designs around the optimum. `None` if demands are missed, or no parameter varies.
     fn around(&self, chosen: &Chosen) -> Option<Neighbourhood> {
         if self.archive.stopped().is_some() {
             return None;
@@ -253,7 +254,7 @@ impl Procedure<'_> {
         margins(case, &self.spec.demands, &self.spec.conditions)
     }
 
-    /// How a design that some stages led to stands to the demands.
+    /// Rank of a design that some stages led to.
     fn standing<'r>(
         &self,
         case: &Case,
@@ -304,10 +305,10 @@ impl Procedure<'_> {
         }
         let mut rounds = 0;
         let mut settled = coupled.is_empty();
-        // Rounds follow the designs found until nothing changes; then one looks everywhere, with what
+        // Rounds follow the designs found until no variable changes; then one searches globally, with what
         // holds then.
         let mut everywhere = coupled.len() < 2;
-        while !settled && rounds < ROUNDS && self.archive.stopped().is_none() {
+        while !settled && rounds < MAX_ROUNDS && self.archive.stopped().is_none() {
             let mut moved: f64 = 0.0;
             for trade_off in &coupled {
                 let at = stages
@@ -336,7 +337,7 @@ impl Procedure<'_> {
             let unchanged = moved < UNCHANGED || coupled.len() < 2;
             settled = unchanged && everywhere;
             // Not followed for ever: the last round looks everywhere.
-            everywhere = unchanged || rounds + 1 == ROUNDS;
+            everywhere = unchanged || rounds + 1 == MAX_ROUNDS;
         }
         Chosen {
             case: now,
@@ -382,7 +383,7 @@ impl Procedure<'_> {
                 start,
             })
             .ok()?;
-        // In the terms of the task, whether or not the solution is lifted.
+        // In the terms of the task, with or without an epigraph variable.
         let plain = &self.tasks.joint(&stage.case).study;
         let merits = [sequential, &stage.case].map(|case| plain.evaluate(&plain.coordinates(case)));
         let mut indices: Vec<Index> = Vec::new();

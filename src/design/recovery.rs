@@ -1,7 +1,7 @@
 //! A search that begins where no design of its first look has a performance.
 
 use super::{
-    lifted::{Lifted, solve_lifted},
+    epigraph::{EpigraphSolution, solve_with_epigraph},
     study::{Role, Study, Term},
 };
 use crate::{
@@ -25,18 +25,18 @@ pub fn recover(
     start: &Start,
     archive: &Archive,
     reason: Failure,
-) -> Result<(Study, Start, Lifted), NoDesign> {
+) -> Result<(Study, Start, EpigraphSolution), NoDesign> {
     let study = with_values(study, start);
     if !study.terms().iter().any(is_objective) {
         return Err(NoDesign::Failed(reason));
     }
-    match solve_lifted(&study, start, archive) {
+    match solve_with_epigraph(&study, start, archive) {
         Err(NoDesign::Failed(_)) => {}
         found => return Ok((study, start.clone(), found?)),
     }
     let stable = most_damped(&study, start, archive)?;
     let start = start.clone().with(vec![stable]);
-    let found = solve_lifted(&study, &start, archive)?;
+    let found = solve_with_epigraph(&study, &start, archive)?;
     Ok((study, start, found))
 }
 
@@ -52,7 +52,7 @@ fn is_of_design(failure: Failure) -> bool {
 /// The study without the terms that fail at every design looked at, for a reason that another
 /// suspension would not mend.
 pub(super) fn with_values(study: &Study, start: &Start) -> Study {
-    /// Designs looked at beside those to begin from.
+    /// Number of designs looked at besides the starts.
     const OTHERS: usize = 4;
     let n = study.variables().len();
     let others = (1..=OTHERS).map(|i| halton(i, n));
@@ -81,6 +81,6 @@ fn most_damped(study: &Study, start: &Start, archive: &Archive) -> Result<Vec<f6
     for condition in conditions {
         damped = damped.optimise_from(condition, Index::LeastDampingRatio, 0, 1.0, 0.0);
     }
-    let found = solve_lifted(&damped, start, archive)?;
+    let found = solve_with_epigraph(&damped, start, archive)?;
     Ok(found.solved.point.x)
 }

@@ -5,15 +5,15 @@
 //! ```
 //!
 //! S are the conditions. Few of them hold a design back, whatever their number. The study is solved for
-//! a few *working* conditions W ⊂ S, and the solution is looked at in all of S. Conditions that violate a
+//! a few *working* conditions W ⊂ S, and the solution is evaluated in all of S. Conditions that violate a
 //! demand there, or in which an objective is worse than in all of W, join W, the worst of each index at a
-//! time, until there are none: the outer approximation of Blankenship and Falk (*Infinitely constrained
+//! time, until none is left: the outer approximation of Blankenship and Falk (*Infinitely constrained
 //! optimization problems*, Journal of Optimization Theory and Applications 19, 1976). Each solution for W is
 //! a lower bound of that for S, so that the last one, which is worst in W, is that for S.
 //!
-//! From there the study is searched once more, locally and in all conditions: what is delivered, its status
-//! and its certificate are those of the whole study. Where demands are out of reach the largest violation is
-//! the least for all conditions, and those that follow it are the least for the working ones.
+//! From there the study is searched once more, locally and in all conditions: the design delivered, its
+//! status and its certificate belong to the whole study. Where demands are out of reach, the largest
+//! violation is minimised over all conditions, the following ones over the working conditions.
 
 use super::{compromise::also_missed, missed::Missed, search::Searched, study::Study};
 use crate::{
@@ -26,37 +26,37 @@ use crate::{
     },
 };
 
-/// Conditions up to which a study is searched in all of them at once.
+/// Largest number of conditions for which a study is searched in all of them at once.
 pub const MANY: usize = 8;
-/// Rounds after which it is nevertheless searched in all of them.
-const ROUNDS: usize = 20;
-/// Designs spread over the box at which the first working conditions are the worst.
+/// Limit on the rounds; then the study is searched in all conditions.
+const MAX_ROUNDS: usize = 20;
+/// Number of designs spread over the box by which the first working conditions are chosen.
 const SPREAD: usize = 4;
-/// By how much a condition must be worse than the working ones to join: what the last search, in all
-/// conditions, settles.
+/// Least excess over the working conditions with which a condition joins: the last search, in all
+/// conditions, removes smaller ones.
 const WORSE: f64 = FEASIBLE;
-/// Conditions without a result that join at a time: they cannot be told from one another.
+/// Number of conditions without a result that join at a time: none of them is known to be worse.
 const FAILING: usize = 3;
 
-/// What came of the working conditions.
+/// Result of the search in working conditions.
 pub(super) enum Screened {
-    /// There are few conditions, or the working ones did not settle: all are to be searched at once.
+    /// There are few conditions, or the rounds did not converge: all are to be searched at once.
     All,
     /// No design was found for the working conditions.
     None,
-    /// The run ended before they settled: the last solution for some of the conditions.
+    /// The run ended before the rounds converged: the last solution for some of the conditions.
     Ended(Searched),
-    /// They settled.
+    /// The rounds converged.
     Settled(Settled),
 }
 
-/// A solution for the working conditions that stands in all conditions.
+/// A solution for the working conditions that is valid in all conditions.
 pub(super) struct Settled {
     /// The solution, with the effort of all rounds.
     pub found: Searched,
     /// The numbers that its terms have in the whole study.
     pub terms: Vec<usize>,
-    /// Where to begin in all conditions.
+    /// Start of the search in all conditions.
     pub near: Start,
 }
 
@@ -79,7 +79,7 @@ pub(super) fn screened(
     let mut from = start.clone();
     let mut effort = Effort::default();
     let mut last: Option<Searched> = None;
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let mut found = match solve(&working.study(), &from) {
             Ok(Some(found)) => found,
             // No design for some conditions, none for all.
@@ -126,8 +126,8 @@ fn ended(last: Option<Searched>, stop: Stop) -> Result<Screened, NoDesign> {
 }
 
 impl Settled {
-    /// What a local search in all conditions came to, with the effort of the rounds before; where the run
-    /// ended before it began, the solution for the working conditions.
+    /// Result of a local search in all conditions, with the effort of the rounds; if the run ended before
+    /// that search, the solution for the working conditions.
     ///
     /// # Errors
     ///
@@ -167,8 +167,8 @@ struct Working<'a> {
 }
 
 impl<'a> Working<'a> {
-    /// The first of those `asked` (the nominal one, if anything is asked there), and those that are worst at
-    /// the designs to begin from and, if the search is to look everywhere, at some others.
+    /// The first of the conditions `asked` (the nominal one, if it has demands), and the worst conditions at
+    /// the starts and, for a global search, at some other designs.
     fn new(
         study: &'a Study,
         asked: &[usize],
@@ -219,8 +219,8 @@ impl<'a> Working<'a> {
         study.with_roles(|_, term| self.contains(term.condition).then_some(term.role))
     }
 
-    /// Conditions to join after a solution, none if it stands in all. `None` where a working condition has
-    /// no result: a term that has a value nowhere was left out.
+    /// Conditions to join after a solution; empty if it is valid in all. `None` if a working condition has
+    /// no result: a term without a value anywhere was left out.
     fn joining(&self, x: &[f64], archive: &Archive) -> Result<Option<Vec<usize>>, Stop> {
         let measured = archive.measure(self.study, &[x.to_vec()], Detail::Values)?;
         let Some(Ok(pieces)) = measured.into_iter().next() else {
@@ -236,7 +236,7 @@ impl<'a> Working<'a> {
             largest(&own.cloned().collect::<Vec<_>>())
         };
         let values = self.study.judge(&pieces);
-        // Where demands are out of reach a violation as large as those of the working ones is no news.
+        // Where demands are out of reach, a condition joins only with a larger violation.
         let violated = own(&values.constraints).max(FEASIBLE);
         Ok(Some(self.worse(&values, |group, pieces| match group {
             Some(_) => own(pieces) + WORSE,

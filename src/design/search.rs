@@ -2,7 +2,7 @@
 
 use super::{
     compromise::{best_beside, compromise, feasible},
-    lifted::{Lifted, solve_lifted},
+    epigraph::{EpigraphSolution, solve_with_epigraph},
     missed::Missed,
     recovery::recover,
     screened::{Screened, Settled, screened},
@@ -19,8 +19,8 @@ use crate::optimize::{
 pub struct Searched {
     /// The study as asked. Terms that no design has a value of are left out.
     pub asked: Study,
-    /// The study in whose terms it is solved: the lifted one where the critical speed is an
-    /// objective, with the bounds of missed demands relaxed to what can be reached.
+    /// Study of the solution: with the epigraph variable where the critical speed is an objective, and with
+    /// the bounds of missed demands relaxed to reachable values.
     pub study: Study,
     /// Its solution.
     pub solved: Solved,
@@ -40,18 +40,18 @@ impl Searched {
         self.solved = self.solved.clone().with_curvature(&self.study, archive);
     }
 
-    /// Whether a demand counts as not met.
+    /// True if a demand counts as not met.
     pub fn misses(&self) -> bool {
         self.missed.iter().any(|missed| !missed.met())
     }
 }
 
 /// Solves a study. Where no design meets all demands, the solution is the [`compromise`]. With more
-/// conditions than [`MANY`](super::screened::MANY) it is searched through those that matter.
+/// conditions than [`MANY`](super::screened::MANY) it is searched in working conditions.
 ///
 /// # Errors
 ///
-/// [`NoDesign`] if not one design could be evaluated.
+/// [`NoDesign`] if no design could be evaluated.
 pub fn search(study: &Study, start: &Start, archive: &Archive) -> Result<Searched, NoDesign> {
     let solve = |study: &Study, start: &Start| search_in_all(study, start, archive).map(Some);
     let settled = match screened(study, start, archive, solve)? {
@@ -74,7 +74,7 @@ fn beside_missed(
     archive: &Archive,
 ) -> Result<Searched, NoDesign> {
     let (missed, x) = (settled.missed(study), settled.near.designs[0].clone());
-    let (Lifted { study: own, solved }, missed) =
+    let (EpigraphSolution { study: own, solved }, missed) =
         best_beside(study, &settled.near, x, missed, archive)?;
     Ok(Searched {
         asked: study.clone(),
@@ -94,11 +94,11 @@ pub fn search_in_all(
     start: &Start,
     archive: &Archive,
 ) -> Result<Searched, NoDesign> {
-    let (asked, start, found) = match solve_lifted(study, start, archive) {
+    let (asked, start, found) = match solve_with_epigraph(study, start, archive) {
         Err(NoDesign::Failed(reason)) => recover(study, start, archive, reason)?,
         other => (study.clone(), start.clone(), other?),
     };
-    let (Lifted { study, solved }, missed) = match found.solved.status {
+    let (EpigraphSolution { study, solved }, missed) = match found.solved.status {
         Status::Infeasible => compromise(&asked, &start, &found.solved, archive)?,
         _ => (found, Vec::new()),
     };
@@ -140,14 +140,14 @@ fn feasible_in_all(
     start: &Start,
     archive: &Archive,
 ) -> Result<Option<Searched>, NoDesign> {
-    let mut found = solve_lifted(study, start, archive)?;
+    let mut found = solve_with_epigraph(study, start, archive)?;
     if found.solved.status == Status::Infeasible {
         let Some(x) = feasible(study, start, &found.solved, archive)? else {
             return Ok(None);
         };
-        found = solve_lifted(study, &Start::near(vec![x]), archive)?;
+        found = solve_with_epigraph(study, &Start::near(vec![x]), archive)?;
     }
-    let Lifted { study: own, solved } = found;
+    let EpigraphSolution { study: own, solved } = found;
     Ok(solved.point.feasible().then(|| Searched {
         asked: study.clone(),
         study: own,

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     case::Case,
-    evaluate::{critical_speed::Stability, curving::CurvingLimits},
+    evaluate::{curving::CurvingLimits, stability::Stability},
     index::MET,
     optimize::{
         archive::{Archive, Stop},
@@ -54,7 +54,7 @@ pub struct StageInput<'a> {
     pub known: Option<&'a StageResult>,
     /// Other designs to begin from.
     pub also: &'a [Case],
-    /// Where the search begins but for designs.
+    /// Start of the search, without designs.
     pub start: Start,
 }
 
@@ -96,7 +96,7 @@ impl StageInput<'_> {
         let designs = std::iter::once(first).chain(self.also);
         let designs = designs.map(|case| study.coordinates(case)).collect();
         let start = match own {
-            // Everywhere was looked before for what comes nearest to the demands.
+            // A global search for the least violation was made before.
             Some(own) if own.status == Status::Infeasible && own.coverage.is_some() => {
                 Start::near(designs)
             }
@@ -161,7 +161,7 @@ pub fn solve(input: &StageInput, tasks: &Tasks, archive: &Archive) -> Result<Sta
     })
 }
 
-/// What is found for every profile; a run that has ended does not begin with another.
+/// Results for every profile; after the end of a run no further profile is begun.
 fn candidates(
     input: &StageInput,
     tasks: &Tasks,
@@ -235,7 +235,7 @@ impl Candidate {
         }
     }
 
-    /// Whether it is better than another: violations that differ by less than is seen are decided
+    /// True if it is better than another: violations that differ by less than is seen are decided
     /// by the objective, equals by the order in which they come.
     fn is_better(&self, other: &Self) -> bool {
         let ((class, value), (others_class, others)) = (self.rank(), other.rank());
@@ -250,7 +250,7 @@ impl Candidate {
     }
 }
 
-/// What the profile of a solved study allows.
+/// Best design with the profile of a solved study.
 fn profile(candidate: &Candidate) -> Profile {
     let Searched { study, solved, .. } = &candidate.searched;
     let case = study.design(&solved.point.x);
@@ -268,7 +268,7 @@ fn profile(candidate: &Candidate) -> Profile {
 }
 
 impl StageResult {
-    /// Adds what an earlier round spent, and profiles that it alone has looked at.
+    /// Adds the effort of an earlier round, and the profiles that only it searched.
     pub(super) fn absorb(&mut self, earlier: &Self) {
         self.explained.effort.add(&earlier.explained.effort);
         for profile in &earlier.profiles {

@@ -1,19 +1,19 @@
-//! How designs stand to the demands, one against another.
+//! Ranking of designs by unmet demands.
 
 use super::margin::Margin;
 use crate::index::MET;
 
-/// How a design stands to the demands.
+/// Rank of a design by its unmet demands.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Standing {
     /// Relative shortfalls of the demands that are not met, the largest first.
     shortfalls: Vec<f64>,
-    /// Whether a search that led to the design found none with a performance.
+    /// True if a search that led to the design found none with a performance.
     failed: bool,
 }
 
 impl Standing {
-    /// Of a design with such margins, which came from a search that `failed` or did not.
+    /// Rank of a design with some margins; `failed`: its search found no design with a performance.
     pub fn new(margins: &[Margin], failed: bool) -> Self {
         let unmet = margins.iter().filter(|margin| !margin.met());
         let mut shortfalls: Vec<f64> = unmet.map(Margin::shortfall).collect();
@@ -21,8 +21,8 @@ impl Standing {
         Self { shortfalls, failed }
     }
 
-    /// Whether it is better than another: the largest shortfall decides, then the next, as far as they
-    /// differ by more than is seen.
+    /// True if it ranks before another: the largest shortfall decides, then the next, where they differ by
+    /// more than [`MET`].
     pub fn is_better_than(&self, other: &Self) -> bool {
         let count = self.shortfalls.len().max(other.shortfalls.len());
         for k in 0..count {

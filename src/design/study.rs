@@ -55,11 +55,11 @@ pub struct Study {
     /// The order in which variables and rules are set.
     settings: Vec<Setting>,
     terms: Vec<Term>,
-    /// The critical speed as a variable of its own, the last one, see [`Study::lifted`].
-    is_lifted: bool,
+    /// The critical speed as a variable of its own, the last one, see [`Study::with_epigraph`].
+    has_epigraph: bool,
 }
 
-/// Pieces of one term, and the number of the piece that is the lifted speed itself.
+/// Pieces of one term, and the number of the piece that is the epigraph speed itself.
 const PIECES: usize = 256;
 const SPEED: usize = PIECES - 1;
 /// Damping ratios this far above what is asked hold nothing back.
@@ -78,7 +78,7 @@ impl Study {
             rules: Vec::new(),
             settings: Vec::new(),
             terms: Vec::new(),
-            is_lifted: false,
+            has_epigraph: false,
         }
     }
 

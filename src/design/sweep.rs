@@ -1,7 +1,7 @@
-//! Many designs spread evenly over what a design may vary, each for what it is worth.
+//! Many designs spread evenly over the design space, each measured once.
 //!
-//! The designs are a numbered sequence: number 1, 2, 3, … are the same however many are asked for,
-//! and on however many threads.
+//! The designs are a numbered sequence: number 1, 2, 3, … are the same for any number of designs and
+//! of threads.
 
 use std::ops::Range;
 
@@ -20,21 +20,21 @@ use crate::{
     track::MAX_DEGREE,
 };
 
-/// What is spread over, and what is measured.
+/// Design space and measured indices.
 #[derive(Debug, Clone)]
 pub struct Sweep<'a> {
     spec: &'a Spec,
     indices: Vec<Index>,
-    /// One for each profile to choose from.
+    /// A study for each profile to choose from.
     studies: Vec<Study>,
     sequence: Sequence,
-    /// What is asked in the nominal condition and in the further ones.
+    /// Demands in the nominal condition and in the further ones.
     demands: Vec<Demands>,
-    /// What is measured in each: the indices first.
+    /// Wanted measurements in each, the indices first.
     wanted: Vec<Vec<Wanted>>,
 }
 
-/// One design.
+/// A design of the sweep.
 #[derive(Debug, Clone)]
 pub struct Design {
     /// Its number, from 1.
@@ -43,11 +43,11 @@ pub struct Design {
     pub case: Case,
     /// Value of every index, SI, in the nominal condition, or why it has none.
     pub values: Vec<Result<f64, NoValue>>,
-    /// Whether it meets all that is asked, in every condition; `None` where nothing is.
+    /// True if it meets all demands in every condition; `None` without demands.
     pub meets_all: Option<Meets>,
 }
 
-/// Whether a design meets what is asked. The worse of several answers is the greater.
+/// Verdict on the demands; a worse one is greater.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Meets {
     /// All of it.
@@ -68,7 +68,7 @@ impl Meets {
         }
     }
 
-    /// How a measured index stands to a demand; one without pieces does not exist here, and meets it.
+    /// Verdict of a measured index on a demand; an index without pieces does not exist here and meets it.
     fn new(demand: Demand, measured: Result<Vec<Piece>, Failure>) -> Self {
         match measured.map(|pieces| worst(demand.index, &pieces)) {
             Ok(Some(reached)) if !demand.met_by(reached) => Self::No,
@@ -80,13 +80,13 @@ impl Meets {
     }
 }
 
-/// Why a design has no value of an index.
+/// Reason why a design has no value of an index.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum NoValue {
     /// It has no such performance.
     #[error(transparent)]
     Failure(#[from] Failure),
-    /// Nothing hunts over the range of speeds searched; its end, m/s.
+    /// Stable over the range of speeds searched; its end, m/s.
     #[error("stable up to {0:.1} m/s")]
     Stable(f64),
     /// It hunts from the start of the range of speeds searched, m/s.
@@ -99,7 +99,7 @@ pub enum NoValue {
 
 impl<'a> Sweep<'a> {
     /// Designs of a spec with some of their indices; the seed decides which designs. `None` if the
-    /// spec leaves nothing open.
+    /// spec has no open parameter.
     pub fn new(spec: &'a Spec, indices: &[Index], seed: u64) -> Option<Self> {
         let tasks = Tasks::new(spec);
         let studies: Vec<Study> = tasks
@@ -150,7 +150,7 @@ impl<'a> Sweep<'a> {
         self.spec.design.parameters.iter().map(|(p, _)| *p)
     }
 
-    /// Whether anything is asked of a design.
+    /// True if anything is asked of a design.
     pub fn asks(&self) -> bool {
         self.demands
             .iter()
@@ -212,7 +212,7 @@ impl<'a> Sweep<'a> {
     }
 }
 
-/// Value of an index from its pieces. What only bounds it is none.
+/// Value of an index from its pieces; an end of the range searched is no value.
 fn value(case: &Case, index: Index, pieces: &[Piece]) -> Result<f64, NoValue> {
     let value = worst(index, pieces).ok_or_else(|| absence(index))?;
     if !value.is_finite() {

@@ -13,13 +13,13 @@ use crate::{
 pub struct Task {
     /// The trade-off; `None` for all at once.
     pub trade_off: Option<TradeOff>,
-    /// What is made as good as can be.
+    /// Goal.
     pub goal: String,
     /// The problem.
     pub study: Study,
 }
 
-/// What a spec asks for.
+/// Tasks of a spec.
 pub struct Tasks<'a> {
     space: &'a DesignSpace,
     objective: &'a [Goal],
@@ -30,7 +30,7 @@ pub struct Tasks<'a> {
 /// Ratio to flange contact or slip up to which the linear model covers a curve.
 const WITHIN_MODEL: f64 = 1.0;
 
-/// Which pieces of an index a trade-off's parameters decide, so that it keeps the demand on them.
+/// Pieces of an index that a trade-off's parameters decide: it keeps the demand on them.
 enum Concern {
     None,
     All,
@@ -81,7 +81,7 @@ impl<'a> Tasks<'a> {
     /// one of the profiles, and all rules applied.
     pub fn admissible(&self, given: &Case) -> Case {
         let mut case = given.clone();
-        // A rule may depend on what is set after it, and that on the next.
+        // A rule may depend on a value set after it.
         for _ in 0..=self.space.parameters.len().max(1) {
             for (parameter, freedom) in self.space.in_setting_order() {
                 let value = parameter.get(&case);
@@ -91,7 +91,7 @@ impl<'a> Tasks<'a> {
                     Freedom::Fixed(fixed) => *fixed,
                     Freedom::Tied { to, ratio } => ratio * to.get(&case),
                 };
-                // What is allowed already keeps its bits.
+                // An allowed value keeps its bits.
                 if (allowed - value).abs() > 0.0 {
                     parameter.set(&mut case, allowed);
                 }
@@ -100,7 +100,7 @@ impl<'a> Tasks<'a> {
         case
     }
 
-    /// Whether a trade-off has anything to choose.
+    /// True if a trade-off has anything to choose.
     pub fn open(&self, trade_off: TradeOff) -> bool {
         self.space.parameters.iter().any(|(parameter, freedom)| {
             parameter.trade_off() == trade_off
@@ -108,15 +108,14 @@ impl<'a> Tasks<'a> {
         })
     }
 
-    /// Whether a tie reaches from one trade-off into another, so that they cannot be taken in turn.
+    /// True if a tie reaches from one trade-off into another, so that they cannot be taken in turn.
     pub fn entangled(&self) -> bool {
         self.space.parameters.iter().any(|(parameter, freedom)| {
             matches!(freedom, Freedom::Tied { to, .. } if to.trade_off() != parameter.trade_off())
         })
     }
 
-    /// Conicities of the profiles to choose from, the one at hand first: what it reaches tells
-    /// early which others have no hope. None to choose from: the case's own.
+    /// Conicities of the profiles to choose from, the present one first. Without a choice: the case's own.
     pub fn profiles(&self, case: &Case) -> Vec<f64> {
         let own = case.wheel_rail.conicity;
         let mut profiles = match self.space.freedom(Parameter::CONICITY) {
@@ -127,7 +126,7 @@ impl<'a> Tasks<'a> {
         profiles
     }
 
-    /// What is asked in a condition, the nominal one being number 0.
+    /// Demands in a condition; the nominal one has number 0.
     pub(super) fn demands_in(&self, condition: usize) -> Demands {
         match condition.checked_sub(1) {
             None => self.demands.clone(),
@@ -210,7 +209,7 @@ impl<'a> Tasks<'a> {
         (study, goal.into())
     }
 
-    /// One trade-off of a case (whose other parameters stay).
+    /// Task of one trade-off of a case, whose other parameters stay.
     pub fn trade_off(&self, case: &Case, trade_off: TradeOff) -> Task {
         let study = self.study(case, |parameter| parameter.trade_off() == trade_off);
         let (mut study, goal) = self.objective_of(study, trade_off, 0);

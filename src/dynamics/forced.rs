@@ -5,8 +5,11 @@ use std::sync::OnceLock;
 
 use sha2::{Digest as _, Sha256};
 
-use super::{LinearSystem, Row, elimination::Stiffness};
-use crate::track::Irregularity;
+use super::Row;
+use crate::{
+    numerics::{LinearSystem, elimination::Stiffness},
+    track::Irregularity,
+};
 
 /// A linear system with its track inputs and outputs.
 #[derive(Debug, Clone)]

@@ -1,26 +1,21 @@
-//! Equations of motion: the report's models as matrices.
+//! Equations of motion: elements become matrices, which [`crate::numerics`] solves.
 
-mod balance;
+mod assembly;
 pub mod curving;
-mod eigen;
-mod eigenpairs;
 pub mod element;
-pub mod elimination;
 mod forced;
 pub mod lateral;
-mod linear_system;
-mod parts;
+mod poles;
 mod row;
-mod simultaneous;
 mod suspension;
 mod tangent;
 pub mod vertical;
 
-pub use eigen::{EigenError, Poles, diverge, eigenvalues};
-pub use eigenpairs::{Known, Pairs, Refiner, SETTLED};
+pub use assembly::Speed;
 pub use forced::{Digest, Excitation, ForcedModel, Output};
 pub use lateral::LateralModel;
-pub use linear_system::{LinearSystem, Speed};
 pub use row::Row;
 pub use tangent::{ForcedTangent, SystemTangent, TangentEntry};
 pub use vertical::VerticalModel;
+
+use crate::numerics::{LinearSystem, parts};

@@ -2,7 +2,8 @@
 
 use nalgebra::{Complex, DVector};
 
-use super::{ForcedModel, LinearSystem, Output, Row};
+use super::{ForcedModel, Output, Row};
+use crate::numerics::LinearSystem;
 
 /// Derivative of the matrices of a linear system: what is not zero in them.
 #[derive(Debug, Clone)]

@@ -3,32 +3,31 @@
 mod curves;
 
 use super::{
-    Evaluation, curving::CurveStatus, equalization::wheel_load_changes, limits, ride::NoRide,
-    vertical_modes::flexible_separations,
+    Evaluation, curving::CurveStatus, equalization::wheel_load_changes, limits,
+    modes::flexible_separations, ride::NoRide,
 };
 use crate::{
-    case::Case, closed_form::natural_frequencies as closed, index::MET, units::Quantity,
-    vehicle::Vehicle,
+    case::Case, closed_form::natural_frequencies as closed, units::Quantity, vehicle::Vehicle,
 };
 
-/// One constraint and how the design stands to it.
+/// A constraint, with the value that a design reaches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Check {
-    /// What is compared.
+    /// Name of the value compared.
     pub name: String,
-    /// Where the limit comes from.
+    /// Source of the limit.
     pub source: &'static str,
     /// Kind of quantity, for units.
     pub quantity: Quantity,
-    /// What the design has, SI, or why it has no such value.
+    /// Value of the design, SI, or the reason why it has none.
     pub value: Result<f64, NotAssessed>,
-    /// What it should have, SI.
+    /// Limit, SI.
     pub limit: f64,
-    /// Whether the value should be at least, rather than at most, the limit.
+    /// True if the value should be at least, rather than at most, the limit.
     pub at_least: bool,
 }
 
-/// Why a constraint cannot be assessed.
+/// Reason why a constraint cannot be assessed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NotAssessed {
     /// The model does not cover the curve.
@@ -47,14 +46,14 @@ impl NotAssessed {
     }
 }
 
-/// How a design stands to a constraint.
+/// Verdict on a constraint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// It satisfies it.
+    /// The limit is kept.
     Ok,
-    /// It does not.
+    /// The limit is exceeded.
     Exceeded,
-    /// The model does not cover what is compared.
+    /// The model does not cover the value compared.
     NotAssessed,
 }
 
@@ -70,7 +69,7 @@ impl Verdict {
 }
 
 impl Check {
-    /// How the design stands to it.
+    /// Verdict on the design.
     pub fn verdict(&self) -> Verdict {
         let Ok(value) = self.value else {
             return Verdict::NotAssessed;
@@ -80,7 +79,7 @@ impl Check {
         } else {
             value - self.limit
         };
-        if excess <= MET * self.limit {
+        if excess <= limits::MET * self.limit {
             Verdict::Ok
         } else {
             Verdict::Exceeded

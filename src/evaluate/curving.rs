@@ -14,7 +14,7 @@ use crate::{
     track::{MAX_DEGREE, curvature_of_degree, degree_of_curvature},
 };
 
-/// What ends the range of curves that a vehicle runs without flange contact or slip.
+/// Limit of the curves that a vehicle runs without flange contact or slip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Limit {
     /// |y_w| of a wheelset (0–3) reaches the flange clearance.
@@ -37,7 +37,7 @@ impl std::fmt::Display for Limit {
 pub struct LimitedCurve {
     /// D, degrees.
     pub degree: f64,
-    /// What limits.
+    /// Limit.
     pub limit: Limit,
     /// Share of μN that the other wheel of the limiting wheelset has left.
     pub other_wheel_reserve: f64,

@@ -26,3 +26,6 @@ pub const LOAD_CHANGE: f64 = 0.25;
 pub const SEPARATION: f64 = 2.0;
 /// Cant deficiency of the static curving check, m: the FRA's 3 in (3.2-2).
 pub const CANT_DEFICIENCY: f64 = 3.0 * INCH;
+/// Tolerance of a bound: relative, or absolute for damping ratios. A larger shortfall shows in printed
+/// values; a smaller one is within the accuracy of a search.
+pub const MET: f64 = 1e-4;

@@ -1,44 +1,36 @@
-//! Performance indices of a case.
+//! Performance indices of a case, from the solutions of its equations.
+//!
+//! Every fast method answers or steps aside for its plain twin in the next folder: modes followed over
+//! the speed for full spectra ([`stability`]), elimination without pivoting for a pivoted factorisation
+//! ([`ride::response`]).
 
-pub mod branches;
-mod by_spectra;
 pub mod checks;
-pub mod critical_speed;
 pub mod cross_checks;
 pub mod curving;
-pub mod damping_range;
 pub mod equalization;
 pub mod gradients;
-pub mod integration;
-pub mod kinematic_mode;
-pub mod lateral_modes;
 pub mod limits;
-pub mod mode;
-pub mod panels;
-pub mod passenger_ride;
-pub mod response;
+pub mod modes;
 pub mod ride;
-mod rounding;
+pub mod stability;
 pub mod stroke_in_curve;
-pub mod vertical_modes;
 pub mod warnings;
 
-use critical_speed::Stability;
 use curving::{CurvingLimits, ServiceCurve, level_curves};
-use lateral_modes::LateralModes;
-use passenger_ride::PassengerRide;
-use ride::{LateralRide, NoRide, VerticalRide};
-use vertical_modes::VerticalMode;
+use modes::{LateralModes, VerticalMode, vertical_modes};
+use ride::{LateralRide, NoRide, PassengerRide, VerticalRide};
+use stability::Stability;
 
 use crate::{
     case::Case,
-    dynamics::{EigenError, LateralModel, Poles, VerticalModel, curving::CurvingError},
+    dynamics::{LateralModel, VerticalModel, curving::CurvingError},
+    numerics::{EigenError, Poles},
 };
 
 /// All performance indices of a case.
 #[derive(Debug, Clone)]
 pub struct Evaluation {
-    /// Critical speed and what hunts.
+    /// Critical speed and hunting modes.
     pub stability: Stability,
     /// Modes of the lateral model at the operating speed.
     pub modes: LateralModes,
@@ -50,11 +42,11 @@ pub struct Evaluation {
     pub service_curve: Result<ServiceCurve, CurvingError>,
     /// Lateral ride.
     pub lateral: Result<LateralRide, NoRide>,
-    /// What passengers feel of it at c.g., front, rear; `None` where there is none.
+    /// Lateral comfort measures at c.g., front, rear; `None` without a stationary response.
     pub lateral_passengers: Option<[PassengerRide; 3]>,
     /// Vertical ride.
     pub vertical: Result<VerticalRide, NoRide>,
-    /// What passengers feel of it at c.g., front, rear; `None` where there is none.
+    /// Vertical comfort measures at c.g., front, rear; `None` without a stationary response.
     pub vertical_passengers: Option<[PassengerRide; 3]>,
 }
 
@@ -63,7 +55,7 @@ impl Evaluation {
     ///
     /// # Errors
     ///
-    /// [`EigenError`] if the eigenvalues of a model cannot be had.
+    /// [`EigenError`] if the eigenvalues of a model do not converge.
     pub fn new(case: &Case) -> Result<Self, EigenError> {
         let lateral = LateralModel::new(case);
         let vertical = VerticalModel::new(case);
@@ -71,7 +63,7 @@ impl Evaluation {
         let lateral_poles = Poles::at(&lateral.forced, speed)?;
         let vertical_poles = Poles::at(&vertical.forced, speed)?;
         let modes = LateralModes::new(&lateral, case, &lateral_poles)?;
-        let vertical_modes = vertical_modes::vertical_modes(&vertical, &vertical_poles)?;
+        let vertical_modes = vertical_modes(&vertical, &vertical_poles)?;
         let level = level_curves(case);
         let service_curve = match &level {
             Ok(level) => ServiceCurve::beside(case, level),

@@ -3,7 +3,7 @@
 use super::{Evaluation, curving::CurveStatus, limits::PEAK, ride::NoRide};
 use crate::dynamics::curving::CurvingError;
 
-/// Why there is no such stroke.
+/// Reason why there is no such stroke.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum NoStroke {
     /// The service gives no curve.

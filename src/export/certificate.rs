@@ -1,12 +1,7 @@
 //! What a design is certified by, in words: how the search ended, what each limit costs, which
 //! demands conflict, what the joint optimisation gained.
 
-use super::{
-    design_text::trade_off,
-    number::{both, in_unit, signed_percent, significant, value},
-    sheet::Sheet,
-    status,
-};
+use super::{design_text::trade_off, sheet::Sheet, status};
 use crate::{
     design::{
         explain::Explained,
@@ -16,7 +11,10 @@ use crate::{
     },
     index::{Index, Scale, Sense},
     optimize::{certificate::Curvature, local::Status, problem::Failure},
-    units::DisplayUnit,
+    units::{
+        DisplayUnit,
+        number::{both, in_unit, signed_percent, significant, value},
+    },
 };
 
 /// How the search ended, and what the limits cost.

@@ -2,13 +2,11 @@
 
 use serde_json::{Value, json};
 
-use super::{
-    number::{both, significant},
-    sheet::Sheet,
-};
+use super::sheet::Sheet;
 use crate::{
     case::Case,
     evaluate::{Evaluation, cross_checks::cross_checks},
+    units::number::{both, significant},
 };
 
 /// Table of all that apply.

@@ -4,7 +4,6 @@ use super::{
     certificate::{certificate, conflict, joint, margins},
     evaluation_text::{constraint_table, stability, title},
     freedom::freedom,
-    number::{both, signed_percent, significant},
     sheet::Sheet,
     status,
     verdict::verdict,
@@ -24,7 +23,10 @@ use crate::{
     },
     parameter::TradeOff,
     spec::Spec,
-    units::Quantity,
+    units::{
+        Quantity,
+        number::{both, signed_percent, significant},
+    },
     vehicle::GRAVITY,
 };
 

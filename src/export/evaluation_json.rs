@@ -9,13 +9,10 @@ use crate::{
     evaluate::{
         Evaluation,
         checks::{Check, Verdict, checks},
-        critical_speed::{Crossing, Stability},
         curving::{CurveStatus, LimitedCurve},
-        kinematic_mode::KinematicMode,
-        lateral_modes::{LateralMode, LateralModes, LateralShape},
-        passenger_ride::PassengerRide,
-        ride::NoRide,
-        vertical_modes::VerticalMode,
+        modes::{KinematicMode, LateralMode, LateralModes, LateralShape, VerticalMode},
+        ride::{NoRide, PassengerRide},
+        stability::{Crossing, Stability},
     },
     spec,
 };

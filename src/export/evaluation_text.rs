@@ -1,22 +1,21 @@
 //! An evaluation as a page that a designer reads at a glance.
 
-use super::{
-    number::{both, significant},
-    sheet::Sheet,
-};
+use super::sheet::Sheet;
 use crate::{
     case::Case,
     evaluate::{
         Evaluation,
         checks::{Check, Verdict, checks},
-        critical_speed::{Hunting, Outcome},
         curving::LimitedCurve,
-        lateral_modes::LateralShape,
-        passenger_ride::PassengerRide,
-        ride::average,
+        modes::LateralShape,
+        ride::{PassengerRide, average},
+        stability::{Hunting, Outcome},
     },
     track::curvature_of_degree,
-    units::Quantity,
+    units::{
+        Quantity,
+        number::{both, significant},
+    },
 };
 
 /// Everything that `bogie evaluate` prints.

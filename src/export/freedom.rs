@@ -1,9 +1,6 @@
 //! The design delivered beside the optimum, and the ranges over which its variables are free.
 
-use super::{
-    number::{significant, unsigned_percent},
-    sheet::Sheet,
-};
+use super::sheet::Sheet;
 use crate::{
     design::{
         explain::Chosen,
@@ -11,7 +8,10 @@ use crate::{
         outcome::DesignResult,
     },
     spec::{DesignSpace, Prefer},
-    units::DisplayUnit,
+    units::{
+        DisplayUnit,
+        number::{significant, unsigned_percent},
+    },
 };
 
 /// A share in per cent, as in "0.1 %".

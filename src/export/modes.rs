@@ -2,20 +2,16 @@
 
 use serde_json::{Value, json};
 
-use super::{
-    evaluation_json,
-    evaluation_text::title,
-    number::{both, significant},
-    sheet::Sheet,
-};
+use super::{evaluation_json, evaluation_text::title, sheet::Sheet};
 use crate::{
     case::Case,
-    dynamics::{EigenError, LateralModel, Poles, VerticalModel},
-    evaluate::{
-        lateral_modes::{AtSpeed, LateralModes},
-        vertical_modes::{VerticalMode, vertical_modes},
+    dynamics::{LateralModel, VerticalModel},
+    evaluate::modes::{AtSpeed, LateralModes, VerticalMode, vertical_modes},
+    numerics::{EigenError, Poles},
+    units::{
+        Quantity,
+        number::{both, significant},
     },
-    units::Quantity,
 };
 
 /// Modes of both models of a case.

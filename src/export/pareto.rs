@@ -4,7 +4,6 @@ use serde_json::{Value, json};
 
 use super::{
     design_json::failures_of,
-    number::significant,
     origin::{PROGRAM, SCHEMA_VERSION},
     sheet::Sheet,
     status,
@@ -15,7 +14,7 @@ use crate::{
     index::Index,
     optimize::archive::Stop,
     spec::Spec,
-    units::{DisplayUnit, Quantity},
+    units::{DisplayUnit, Quantity, number::significant},
 };
 
 /// Price of a bound on an index: change of the objective, in the unit of its column, per unit of

@@ -5,20 +5,15 @@ use serde_json::{Map, Value, json};
 use super::{
     evaluation_json::{ride_status, ride_status_text},
     evaluation_text::title,
-    number::significant,
     sheet::Sheet,
     table::Table,
 };
 use crate::{
     case::Case,
-    dynamics::{
-        EigenError, ForcedModel, LateralModel, Poles, VerticalModel, elimination::LANES, lateral,
-        vertical,
-    },
-    evaluate::{
-        response::Response,
-        ride::{NoRide, stationary},
-    },
+    dynamics::{ForcedModel, LateralModel, VerticalModel, lateral, vertical},
+    evaluate::ride::{NoRide, response::Response, stationary},
+    numerics::{EigenError, Poles, elimination::LANES},
+    units::number::significant,
 };
 
 /// A spectrum: name with unit, values.

@@ -1,9 +1,12 @@
 //! The verdict on a finished design: whether everything is met; if not, what is not.
 
-use super::{number::value, sheet::Sheet};
-use crate::design::{
-    margin::{Margin, Verdict},
-    outcome::{Delivered, DesignResult},
+use super::sheet::Sheet;
+use crate::{
+    design::{
+        margin::{Margin, Verdict},
+        outcome::{Delivered, DesignResult},
+    },
+    units::number::value,
 };
 
 /// The verdict in words.

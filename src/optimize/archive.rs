@@ -19,10 +19,10 @@ use super::{
     problem::{Detail, Failure, Key, Piece, Problem},
 };
 
-/// What a measurement gave.
+/// Result of a measurement.
 pub type Measured = Result<Vec<Piece>, Failure>;
 
-/// Why a search ended before it was done.
+/// Reason for an early end of a search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Stop {
     /// The budget of evaluations is spent.
@@ -43,19 +43,19 @@ impl Stop {
     }
 }
 
-/// Is told how a long search gets on. Calls come from several threads.
+/// Observer of a long search, called from several threads.
 pub trait Progress: Sync {
-    /// A new part of the work begins.
+    /// Called when a new part of the work begins.
     fn stage(&self, what: &str);
 
-    /// This many evaluations are expected in all, as far as one can tell.
+    /// Called with the expected number of evaluations.
     fn expected(&self, evaluations: usize);
 
-    /// One more full-model evaluation is done.
+    /// Called after every full-model evaluation.
     fn evaluated(&self);
 }
 
-/// Progress that nobody watches.
+/// Observer that does nothing.
 pub struct Silent;
 
 impl Progress for Silent {
@@ -78,14 +78,14 @@ pub struct Archive<'a> {
 /// Evaluations that were asked for through one handle of an archive.
 #[derive(Debug, Clone, Default)]
 pub struct Spent {
-    /// How many.
+    /// Number of evaluations.
     pub evaluations: usize,
-    /// Of which without a result, by reason.
+    /// Number of them without values, by reason.
     pub failures: BTreeMap<Failure, usize>,
 }
 
 impl Spent {
-    /// What came after `before`.
+    /// Difference from an earlier account `before`.
     #[must_use]
     pub fn since(mut self, before: &Self) -> Self {
         self.evaluations -= before.evaluations;
@@ -109,10 +109,10 @@ impl Spent {
 #[derive(Default)]
 struct Kept {
     known: HashMap<Bits, Measured>,
-    /// From the journal of an earlier run, not yet asked for in this one.
+    /// Measurements from the journal of an earlier run, not yet asked for in this one.
     recorded: HashMap<Bits, Measured>,
     journal: Option<Journal>,
-    /// Measurements asked for in this run, those from the journal included.
+    /// Number of measurements asked for in this run, including those from the journal.
     spent: Spent,
     /// Evaluations expected in all.
     expected: usize,
@@ -156,7 +156,7 @@ impl<'a> Archive<'a> {
         }
     }
 
-    /// What was asked for through this handle.
+    /// Account of this handle.
     pub fn spent(&self) -> Spent {
         locked(&self.own).clone()
     }
@@ -193,7 +193,7 @@ impl<'a> Archive<'a> {
         self
     }
 
-    /// Measures designs side by side; what is known is not measured again.
+    /// Measures designs side by side; known measurements are taken from the archive.
     ///
     /// # Errors
     ///
@@ -208,7 +208,7 @@ impl<'a> Archive<'a> {
         let key = |x: &Vec<f64>| self.in_detail(problem.key(x), detail);
         let keys: Vec<Key> = designs.iter().map(key).collect();
         let bits: Vec<Bits> = keys.iter().map(Bits::from).collect();
-        // What is new is settled, in order, before anything runs side by side: count, budget and
+        // New measurements are counted, in order, before they run side by side: count, budget and
         // journal never depend on the threads.
         let mut new: Vec<(usize, Option<Measured>)> = Vec::new();
         let mut over_budget = false;
@@ -268,7 +268,7 @@ impl<'a> Archive<'a> {
         Ok(bits.iter().map(|key| kept.known[key].clone()).collect())
     }
 
-    /// What a design is known to give, in whatever detail.
+    /// Known measurement of a design, in any detail.
     pub fn known(&self, key: &Key) -> Option<Measured> {
         let kept = self.lock();
         let known = |key: &Key| kept.known.get(&Bits::from(key)).cloned();
@@ -285,7 +285,7 @@ impl<'a> Archive<'a> {
         }
     }
 
-    /// Whether the number of evaluations is limited.
+    /// True if the number of evaluations is limited.
     pub fn has_budget(&self) -> bool {
         self.budget < usize::MAX
     }
@@ -300,12 +300,12 @@ impl<'a> Archive<'a> {
         self.lock().spent.failures.clone()
     }
 
-    /// Why the run was ended, if it was.
+    /// Reason for an early end of the run.
     pub fn stopped(&self) -> Option<Stop> {
         self.lock().stopped
     }
 
-    /// Why the journal is incomplete, if it is.
+    /// Error that left the journal incomplete.
     pub fn journal_error(&self) -> Option<String> {
         self.lock().journal_error.clone()
     }
@@ -326,7 +326,7 @@ impl<'a> Archive<'a> {
         self.progress.expected(kept.expected);
     }
 
-    /// Tells whoever watches that a new part of the work begins.
+    /// Tells the observer that a new part of the work begins.
     pub fn stage(&self, what: &str) {
         self.progress.stage(what);
     }
@@ -342,7 +342,7 @@ impl<'a> Archive<'a> {
 }
 
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // Nothing panics while it holds a lock.
+    // No code panics while it holds a lock.
     mutex
         .lock()
         .unwrap_or_else(std::sync::PoisonError::into_inner)
@@ -372,7 +372,7 @@ fn finite_gradient(piece: &Piece) -> bool {
     gradient.into_iter().all(|slope| slope.is_finite())
 }
 
-/// A failed evaluation never turns into a number, nor a number that is none into a result.
+/// A measurement with a value that is not finite becomes a failure.
 fn finite(measured: Measured) -> Measured {
     let pieces = measured?;
     if pieces

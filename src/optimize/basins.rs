@@ -1,5 +1,4 @@
-//! The local optima that the searches of a problem have come to, and how much of the space may lead
-//! to others.
+//! Local optima found by the searches, and the estimated share of the space in basins not yet seen.
 //!
 //! ```math
 //! u = w (w + 1) / (N (N − 1))
@@ -14,11 +13,12 @@
 use super::{
     evaluations::near,
     local::{ARRIVED, Found, NEIGHBOUR, Status},
-    problem::{Point, SAME},
+    problem::{EQUAL_OBJECTIVES, Point},
 };
 
-/// Difference of objectives up to which a stalled search belongs to an optimum in its neighbourhood.
-const LEVEL: f64 = 1e-3;
+/// Difference of objectives up to which a stalled search counts as arrived at an optimum in its
+/// neighbourhood.
+const STALLED_DIFFERENCE: f64 = 1e-3;
 
 /// A local optimum.
 #[derive(Debug, Clone)]
@@ -38,7 +38,7 @@ pub(super) struct Basins {
 }
 
 impl Basins {
-    /// Adds what a search came to, from a uniform point or not.
+    /// Adds the result of a search, from a uniform point or not.
     pub fn add(&mut self, found: Found, is_uniform: bool) {
         self.uniform += usize::from(is_uniform);
         let known = self.optima.iter_mut().find(|o| same(&o.found, &found));
@@ -65,7 +65,7 @@ impl Basins {
         self.optima.iter().map(|o| o.searches).sum()
     }
 
-    /// Expected share of the space in basins not yet seen, u; 1 where it cannot be told.
+    /// Expected share of the space in basins not yet seen, u; 1 before two searches from uniform points.
     pub fn unseen(&self) -> f64 {
         unseen(self.optima.len(), self.uniform)
     }
@@ -75,7 +75,7 @@ impl Basins {
         self.optima.len()
     }
 
-    /// What was found in each.
+    /// Best design of each.
     pub fn found(&self) -> impl Iterator<Item = &Found> {
         self.optima.iter().map(|o| &o.found)
     }
@@ -103,9 +103,8 @@ pub fn unseen(optima: usize, uniform: usize) -> f64 {
     (w * (w + 1.0) / (n * (n - 1.0))).min(1.0)
 }
 
-/// Whether a design is truly better than what the searches came to. An optimum stands against one
-/// that owes its objective to the tolerance on the constraints: where these are nearly flat they are
-/// dear.
+/// True if a design is better than an optimum by more than tolerances explain: by more than the violation
+/// that the constraint tolerance allows is worth at the optimum's multipliers.
 pub(super) fn is_overtaken(optimum: &Found, by: &Point) -> bool {
     if !by.better_than(&optimum.point) {
         return false;
@@ -120,10 +119,10 @@ pub(super) fn is_overtaken(optimum: &Found, by: &Point) -> bool {
     };
     let price: f64 = certificate.constraint_multipliers.iter().sum();
     let owed = price * (others.violation() - own.violation()).max(0.0);
-    own.objective() - others.objective() > SAME + owed
+    own.objective() - others.objective() > EQUAL_OBJECTIVES + owed
 }
 
-/// Whether two searches came to the same optimum.
+/// True if two searches came to the same optimum.
 pub(super) fn same(a: &Found, b: &Found) -> bool {
     let (p, q) = (&a.point, &b.point);
     if p.feasible() != q.feasible() {
@@ -134,7 +133,7 @@ pub(super) fn same(a: &Found, b: &Found) -> bool {
     }
     let apart = (p.objective() - q.objective()).abs();
     let stalled = a.status != Status::Optimal || b.status != Status::Optimal;
-    apart < SAME || stalled && apart < LEVEL && near(&p.x, &q.x, NEIGHBOUR)
+    apart < EQUAL_OBJECTIVES || stalled && apart < STALLED_DIFFERENCE && near(&p.x, &q.x, NEIGHBOUR)
 }
 
 #[cfg(test)]

@@ -18,10 +18,10 @@ use super::{
     surrogate::Surrogate,
 };
 
-/// How the objective curves along what the active limits leave open.
+/// Curvature of the objective in the directions that the active limits leave open.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Curvature {
-    /// As many active limits and bounds as variables: nothing is left open.
+    /// As many active limits and bounds as variables: no direction is left open.
     Vertex,
     /// It rises in every direction left open; the least second derivative, scaled.
     Minimum(f64),
@@ -41,7 +41,7 @@ pub struct Certificate {
     pub objective_multipliers: Vec<Vec<f64>>,
     /// λ of every constraint piece.
     pub constraint_multipliers: Vec<f64>,
-    /// ν^u − ν^l: what the objective would gain by moving the bound out, per scaled length.
+    /// ν^u − ν^l: gain of the objective by moving the bound out, per scaled length.
     pub bound_multipliers: Vec<f64>,
     /// Gradients of the objective pieces.
     pub objective_gradients: Vec<Vec<DVector<f64>>>,
@@ -51,15 +51,15 @@ pub struct Certificate {
     pub curvature: Option<Curvature>,
 }
 
-/// Multipliers below this hold nothing.
+/// Multiplier above which a constraint counts as active.
 pub const HOLDS: f64 = 1e-5;
-/// Above this multipliers are large, and residuals count in proportion to them (as in Wächter,
+/// Size of multipliers above which residuals are relative to them (as in Wächter,
 /// Biegler: *On the implementation of an interior-point filter line-search algorithm*, 2006, (5)).
 const LARGE: f64 = 10.0;
-/// Second derivatives within this share of the largest count as none.
-const FLAT: f64 = 1e-3;
-/// Smallest curvature that counts at all, scaled.
-const NOISE: f64 = 1e-3;
+/// Second derivative, as a share of the largest, that counts as zero.
+const FLAT_SHARE: f64 = 1e-3;
+/// Second derivative that counts as zero, scaled.
+const FLAT_ABSOLUTE: f64 = 1e-3;
 
 impl Certificate {
     /// First-order conditions from the surrogates at a design. `None` if Clarabel fails.
@@ -98,7 +98,7 @@ impl Certificate {
         })
     }
 
-    /// The certificate of a design without variables: nothing can be moved.
+    /// Certificate of a design without variables.
     pub(super) fn alone(values: &Values) -> Self {
         let zeros = |pieces: &Vec<super::problem::Piece>| vec![0.0; pieces.len()];
         Self {
@@ -112,7 +112,7 @@ impl Certificate {
         }
     }
 
-    /// Whether it has a multiplier for every piece of a point.
+    /// True if it has a multiplier for every piece of a point.
     pub fn is_of(&self, point: &Point) -> bool {
         let Ok(values) = &point.values else {
             return false;
@@ -167,7 +167,7 @@ impl Certificate {
         }
         let reduced = open.transpose() * &hessian * &open;
         let least = subproblem::symmetric(reduced)?.eigenvalues.min();
-        let flat = NOISE.max(FLAT * hessian.amax());
+        let flat = FLAT_ABSOLUTE.max(FLAT_SHARE * hessian.amax());
         Some(if least > flat {
             Curvature::Minimum(least)
         } else if least < -flat {

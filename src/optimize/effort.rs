@@ -1,26 +1,26 @@
-//! What a search has spent.
+//! Effort of a search.
 
 use std::collections::BTreeMap;
 
 use super::problem::Failure;
 
-/// What a search has spent.
+/// Effort of a search.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Effort {
-    /// Full-model evaluations; what the archive knew is not counted.
+    /// Full-model evaluations, without those served by the archive.
     pub evaluations: usize,
-    /// Of which without a result, by reason.
+    /// Number of them without values, by reason.
     pub failures: BTreeMap<Failure, usize>,
-    /// Local searches.
+    /// Number of local searches.
     pub starts: usize,
-    /// How many of them came to the design that was returned.
+    /// Number of them that came to the design returned.
     pub agreed: usize,
-    /// Seconds.
+    /// Time, s.
     pub seconds: f64,
 }
 
 impl Effort {
-    /// Adds what another search has spent; local searches stay those of this one.
+    /// Adds evaluations, failures and time of another search.
     pub fn add(&mut self, other: &Self) {
         self.evaluations += other.evaluations;
         for (failure, count) in &other.failures {

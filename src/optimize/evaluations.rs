@@ -16,7 +16,7 @@ pub struct Evaluations<'a> {
 }
 
 impl<'a> Evaluations<'a> {
-    /// None yet.
+    /// No evaluations yet.
     pub fn new(problem: &'a dyn Problem, archive: &'a Archive<'a>) -> Self {
         Self {
             problem,
@@ -97,7 +97,7 @@ impl<'a> Evaluations<'a> {
         outcome.map(|_| new)
     }
 
-    /// Why the latest design without a performance has none.
+    /// Reason of the latest design without values.
     pub fn last_failure(&self) -> Option<Failure> {
         let points = self.lock();
         points
@@ -160,14 +160,14 @@ impl<'a> Evaluations<'a> {
     }
 
     fn lock(&self) -> MutexGuard<'_, Vec<Point>> {
-        // Nothing panics while it holds the lock.
+        // No code panics while it holds the lock.
         self.points
             .lock()
             .unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 }
 
-/// Whether two designs are within `apart` of each other in every direction.
+/// True if two designs are within `apart` of each other in every direction.
 pub(super) fn near(a: &[f64], b: &[f64], apart: f64) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < apart)
 }

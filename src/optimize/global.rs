@@ -2,11 +2,10 @@
 //! variables, until basins not yet seen are unlikely. A solver of argmin, one round of searches an
 //! iteration.
 //!
-//! Multistart with the stopping rule of [`super::basins`]. Points where the models have no answer
-//! (an unstable vehicle has no ride) are drawn again: shares are of the space that can be
-//! evaluated. Of two optima of a suspension one is often stiff at a bound where the other is soft:
-//! from the best design found, each variable is put to the end of its range that is far away and
-//! the search goes on from there, and again from what is better.
+//! Multistart with the stopping rule of [`super::basins`]. Points without values are drawn again:
+//! shares are of the space that can be evaluated. Two optima often differ in one variable, which is at
+//! opposite ends of its range: from the best design found, each variable is moved to the far end of its
+//! range and a local search follows; so again from a better design.
 
 use std::collections::VecDeque;
 
@@ -29,28 +28,28 @@ use super::{
     start::{Everywhere, Start},
 };
 
-/// Local searches of a round, side by side on any number of threads.
+/// Number of local searches in a round, side by side on any number of threads.
 const ROUND: usize = 4;
-/// Uniform points evaluated at a time.
+/// Number of uniform points evaluated at a time.
 const BATCH: usize = 2 * ROUND;
-/// Local optima up to which the stopping rule is followed; problems with more are left with the
-/// best that was found.
-const MANY: f64 = 14.0;
-/// Uniform points drawn per variable before the first that can be evaluated, and for every later
-/// one.
+/// Largest number of local optima for which the stopping rule is followed; problems with more end with the
+/// best design found.
+const MOST_OPTIMA: f64 = 14.0;
+/// Limit on the uniform points drawn, per variable, for one that has values.
 const DRAWS: usize = 40;
-/// Where the least violation is greater than this, a demand is missed by more than the factor e.
-const NEAR: f64 = 1.0;
-/// Designs per variable of an even covering then.
+/// Least violation above which the box is covered evenly: a demand is missed by more than the factor e.
+const FAR_FROM_FEASIBLE: f64 = 1.0;
+/// Number of designs per variable of the even covering.
 const COVERING: usize = 16;
-/// Price of a violation by which its designs are ranked, and their distance in at least one variable.
+/// Penalty by which its designs are ranked.
 const START_PENALTY: f64 = 4.0;
-const APART: f64 = 0.12;
-/// An end of a variable's range is far from a design if it is this far, scaled.
-const FAR: f64 = 0.3;
-/// Searches that may begin at the best design met, where the search that met it ended at a worse one.
+/// Least distance of the chosen designs in at least one variable.
+const START_DISTANCE: f64 = 0.12;
+/// Scaled distance from which an end of a variable's range counts as far.
+const FAR_END: f64 = 0.3;
+/// Limit on the searches from the best design met, if the search that met it ended at a worse one.
 const AGAIN_FROM_BEST: usize = 3;
-/// Price of a violation in the merit that argmin watches.
+/// Penalty of a violation in the merit for argmin.
 const PENALTY: f64 = 20.0;
 
 /// The merit of a design, as argmin sees it.
@@ -63,13 +62,13 @@ impl CostFunction for Evaluations<'_> {
     }
 }
 
-/// What the searches of a problem found.
+/// Result of the global phase.
 pub(super) struct Explored {
     /// The local optima.
     pub basins: Basins,
     /// The best design that a search met on its way.
     pub met: Option<Point>,
-    /// Why it ended early, if it did.
+    /// Reason for an early end.
     pub stop: Option<Stop>,
 }
 
@@ -86,7 +85,7 @@ pub(super) fn explore(problem: &dyn Problem, archive: &Archive, start: &Start) -
     }
 }
 
-/// Evaluations that a search may take, for whoever waits.
+/// Expected number of evaluations of a search, for progress reports.
 pub(super) fn forecast(n: usize, start: &Start) -> usize {
     /// Local searches from uniform points where there are two optima.
     const SEARCHES: usize = 12;
@@ -189,10 +188,10 @@ impl<'a> Multistart<'a> {
         }
     }
 
-    /// Whether the stopping rule asks for more uniform points, and they can be had.
+    /// True if the stopping rule asks for more uniform points, and they can be had.
     fn needs_sample(&self) -> bool {
         self.everywhere.is_some_and(|everywhere| {
-            let most = MANY / everywhere.unseen.sqrt();
+            let most = MOST_OPTIMA / everywhere.unseen.sqrt();
             self.basins.unseen() > everywhere.unseen
                 && (self.basins.uniform() as f64) < most
                 && self.failed < DRAWS * self.n
@@ -229,12 +228,12 @@ impl<'a> Multistart<'a> {
         Ok(())
     }
 
-    /// Where no design is known that comes near to the demands, covers the box evenly and takes the
-    /// best designs there to search from: the way to feasible ones may be too steep from elsewhere.
-    /// Whether there are any; it is done once.
+    /// Even covering of the box, once, if no known design is near feasibility: the best designs become
+    /// starts, because local searches from elsewhere may not reach feasible ones. Returns true if there
+    /// are new starts.
     fn cover(&mut self, evaluations: &Evaluations) -> Result<bool, Stop> {
         let least = self.met.as_ref().and_then(|met| met.values.as_ref().ok());
-        let is_near = least.is_some_and(|values| values.violation() < NEAR);
+        let is_near = least.is_some_and(|values| values.violation() < FAR_FROM_FEASIBLE);
         if is_near || self.is_covered || self.everywhere.is_none() {
             return Ok(false);
         }
@@ -243,13 +242,13 @@ impl<'a> Multistart<'a> {
         for point in evaluations.all(&covering)? {
             self.meet(&point);
         }
-        let starts = evaluations.best_apart(START_PENALTY, APART, 2 + self.n);
+        let starts = evaluations.best_apart(START_PENALTY, START_DISTANCE, 2 + self.n);
         self.others.extend(starts.into_iter().map(|point| point.x));
         Ok(!self.others.is_empty())
     }
 
-    /// Puts every variable of the best design to the ends of its range that are far away. Whether
-    /// there is any such design from which that was not done before.
+    /// Starts with each variable of the best design at the far ends of its range. Returns true if there
+    /// are new ones.
     fn turn(&mut self) -> bool {
         let turns = self.everywhere.is_some_and(|everywhere| everywhere.turns);
         let Some(best) = self.basins.best().filter(|_| turns) else {
@@ -261,7 +260,7 @@ impl<'a> Multistart<'a> {
         }
         for (i, at) in x.iter().enumerate() {
             for end in [0.0, 1.0] {
-                if (at - end).abs() > FAR {
+                if (at - end).abs() > FAR_END {
                     let mut design = x.clone();
                     design[i] = end;
                     self.others.push_back(design);
@@ -272,7 +271,7 @@ impl<'a> Multistart<'a> {
         true
     }
 
-    /// Goes on from a design that is better than what the search that met it came to.
+    /// Start at the best design met, if the search that met it ended at a worse one.
     fn go_on(&mut self) -> bool {
         let (Some(met), Some(known)) = (&self.met, self.basins.best()) else {
             return false;
@@ -285,7 +284,7 @@ impl<'a> Multistart<'a> {
         true
     }
 
-    /// Searches from all designs of a round. What they find does not depend on one another.
+    /// Searches from all designs of a round, independent of each other.
     fn follow(&mut self, round: Round, evaluations: &Evaluations) -> Result<(), Stop> {
         let (is_uniform, starts) = match round {
             Round::Uniform(starts) => (true, starts),

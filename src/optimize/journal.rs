@@ -22,7 +22,7 @@ pub struct Journal {
     file: File,
 }
 
-/// What a journal belongs to.
+/// Program and spec of a journal.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Header {
     /// Program and version.
@@ -34,13 +34,13 @@ pub struct Header {
 /// A measurement read from a journal.
 #[derive(Debug, Clone)]
 pub struct Entry {
-    /// What was measured.
+    /// Key of the measurement.
     pub key: Key,
-    /// What it gave.
+    /// Its result.
     pub measured: Measured,
 }
 
-/// Why a journal cannot be used.
+/// Reason why a journal cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
     /// The file system refused.
@@ -49,7 +49,7 @@ pub enum JournalError {
     /// It records another run.
     #[error("it belongs to another spec or version of the program")]
     Foreign,
-    /// There is nothing to resume.
+    /// There is no journal to resume.
     #[error("there is no journal of an earlier run")]
     Missing,
     /// Another process is writing it.
@@ -65,7 +65,7 @@ struct Line {
     failure: Option<Failure>,
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pieces: Vec<(usize, f64, f64)>,
-    /// Of the pieces, where they are known.
+    /// Gradients of the pieces, where known.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     gradients: Vec<Option<Vec<f64>>>,
 }
@@ -80,7 +80,7 @@ impl Journal {
         if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
             std::fs::create_dir_all(folder)?;
         }
-        // Nothing is cut off before the lock is had.
+        // The file is truncated only under the lock.
         let mut options = File::options();
         let file = options
             .write(true)
@@ -161,7 +161,7 @@ impl Journal {
     }
 }
 
-/// Keeps other runs out, until the file is closed or the process is gone.
+/// Lock of the file until it is closed or the process ends.
 fn lock(file: &File) -> Result<(), JournalError> {
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => Err(JournalError::Busy),

@@ -15,12 +15,12 @@ use super::{
     archive::Stop,
     certificate::Certificate,
     evaluations::{Evaluations, near},
-    problem::{FEASIBLE, Failure, Point, SAME, Values, onto_bound},
+    problem::{EQUAL_OBJECTIVES, FEASIBLE, Failure, Point, Values, onto_bound},
     subproblem::{self, Step, Weights},
     surrogate::{Surrogate, along, displacement, pattern, unknown_directions},
 };
 
-/// How a search ended.
+/// Status of a finished search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
     /// A point that satisfies the first-order conditions and every constraint; where it was searched
@@ -54,70 +54,75 @@ impl From<Stop> for Status {
 pub const WIDE: f64 = 0.08;
 /// See [`WIDE`].
 pub const NARROW: f64 = 0.01;
-/// When to verify: the radius below a share of the ranges, or the predicted gain within the noise
-/// of the evaluations. If the verification fails, the second holds: where curvatures are so great,
-/// noise is small beside them.
-const SETTLED: [Settled; 2] = [
-    Settled {
+/// Thresholds below which the first-order conditions are verified: of the trust radius, and of the
+/// predicted gain. The first is the noise of the evaluations. The second holds after a failed
+/// verification: curvatures are then so great that noise is small beside them.
+const VERIFY_AT: [VerifyAt; 2] = [
+    VerifyAt {
         radius: 1e-6,
         gain: 1e-9,
     },
-    Settled {
+    VerifyAt {
         radius: 1e-9,
         gain: 1e-13,
     },
 ];
 
+/// Thresholds of verification.
 #[derive(Clone, Copy)]
-struct Settled {
+struct VerifyAt {
+    /// Trust radius, scaled.
     radius: f64,
+    /// Gain in the merit function.
     gain: f64,
 }
 
-/// Samples are taken at this share of the radius, but never so close that rounding of the
-/// evaluations (1e-10) disturbs the gradients.
-const SAMPLING: f64 = 0.5;
-const CLOSEST: f64 = 2e-5;
-/// Distances at which the first-order conditions are verified. At the first, gradients are good to
-/// 1e-6 for third derivatives of order one, such as scaled indices have, and rounding does not
-/// matter; the others are for sharper curves.
-const VERIFY: f64 = 5e-4;
-const VERIFY_CLOSELY: [f64; 2] = [2e-5, 1e-6];
-/// Verifications that may send the search on.
-const SENT_ON: usize = 8;
-/// Iterations allowed; ten to thirty are normal.
-const ITERATIONS: usize = 400;
+/// Distance of samples as a share of the trust radius.
+const SAMPLE_SHARE: f64 = 0.5;
+/// Least distance of samples: rounding of the evaluations (1e-10) does not disturb the gradients.
+const LEAST_SAMPLE_DISTANCE: f64 = 2e-5;
+/// Distance of the designs by which the first-order conditions are verified: gradients are good to 1e-6
+/// for third derivatives of order one, and rounding does not matter.
+const VERIFY_DISTANCE: f64 = 5e-4;
+/// Further distances, for larger third derivatives.
+const VERIFY_CLOSER_DISTANCES: [f64; 2] = [2e-5, 1e-6];
+/// Limit on the verifications after which the search resumes.
+const MAX_RESUMPTIONS: usize = 8;
+/// Limit on the iterations; ten to thirty are usual.
+const MAX_ITERATIONS: usize = 400;
 /// Residual of the first-order conditions at which a point counts as optimal.
 pub const KKT_TOLERANCE: f64 = 1e-4;
-/// First price of a violation, and the highest.
-const PENALTY: f64 = 10.0;
+/// First penalty of a violation.
+const FIRST_PENALTY: f64 = 10.0;
+/// Highest penalty of a violation.
 const HIGHEST_PENALTY: f64 = 1e6;
-/// Interior-point solutions end this far short of a bound: it is put on it.
-const SHORT: f64 = 1e-6;
-/// A violation left by the subproblem below this share of the radius is rounding.
-const NEGLIGIBLE: f64 = 1e-3;
-/// A search this close to a known optimum, in every variable, has arrived at it; so has one that is
-/// in its neighbourhood, behind it by no more than this, and no better.
+/// Distance from a bound within which a coordinate is put on it: interior-point solutions end short of
+/// bounds.
+const BOUND_SNAP: f64 = 1e-6;
+/// Violation left by the subproblem, as a share of the radius, that counts as rounding.
+const NEGLIGIBLE_VIOLATION: f64 = 1e-3;
+/// Distance from a known optimum, in every variable, at which a search has arrived at it.
 pub(super) const ARRIVED: f64 = 5e-3;
+/// Distance, in every variable, of an optimum's neighbourhood.
 pub(super) const NEIGHBOUR: f64 = 0.1;
-const LEVEL: f64 = 1e-2;
-/// Up to this many variables the first designs determine all curvatures.
-const FEW: usize = 3;
+/// Excess of the merit over that of a known optimum up to which a search in its neighbourhood has arrived.
+const NEIGHBOUR_LEVEL: f64 = 1e-2;
+/// Largest number of variables for which the first designs determine all curvatures.
+const FEW_VARIABLES: usize = 3;
 
-/// What a local search found.
+/// Result of a local search.
 #[derive(Debug, Clone)]
 pub struct Found {
     /// The design.
     pub point: Point,
-    /// How the search ended.
+    /// Status.
     pub status: Status,
     /// Its first-order conditions, where they could be verified.
     pub certificate: Option<Certificate>,
 }
 
-/// Improves `start`, looking `radius` around it at first, until the first-order conditions hold.
-///
-/// `known` optima end the search where it comes close to one.
+/// Local search from `start` with a first trust radius `radius`, until the first-order conditions hold
+/// or the search arrives at one of the `known` optima.
 pub(super) fn search(
     evaluations: &Evaluations,
     start: Point,
@@ -128,8 +133,8 @@ pub(super) fn search(
         evaluations,
         centre: start,
         radius,
-        penalty: PENALTY,
-        settled: SETTLED[0],
+        penalty: FIRST_PENALTY,
+        verify_at: VERIFY_AT[0],
         known,
         arrived: None,
         infeasible: false,
@@ -160,7 +165,7 @@ pub(super) fn search(
     }
 }
 
-/// A certificate with the second-order condition, from fresh evaluations around its design.
+/// Certificate with the second-order condition, from fresh evaluations around its design.
 pub(super) fn with_curvature(
     evaluations: &Evaluations,
     point: &Point,
@@ -171,13 +176,13 @@ pub(super) fn with_curvature(
     }
     let centre = evaluations.graded_at(&point.x)?;
     let surrogate = if has_gradients(&centre) {
-        let around = evaluations.graded(&pattern(&centre.x, VERIFY, false))?;
-        let around: Vec<(f64, Point)> = around.into_iter().map(|p| (VERIFY, p)).collect();
+        let around = evaluations.graded(&pattern(&centre.x, VERIFY_DISTANCE, false))?;
+        let around: Vec<(f64, Point)> = around.into_iter().map(|p| (VERIFY_DISTANCE, p)).collect();
         Surrogate::from_gradients(&centre, &around)
     } else {
-        evaluations.all(&pattern(&centre.x, VERIFY, true))?;
+        evaluations.all(&pattern(&centre.x, VERIFY_DISTANCE, true))?;
         let around = evaluations.around(&centre.x);
-        Surrogate::fit(&centre, &around, VERIFY)
+        Surrogate::fit(&centre, &around, VERIFY_DISTANCE)
     };
     Ok(match surrogate {
         Some(surrogate) => certificate.with_curvature(&surrogate, &centre.x),
@@ -185,18 +190,20 @@ pub(super) fn with_curvature(
     })
 }
 
+/// State of a local search: centre, trust radius, penalty.
 struct Region<'a> {
     evaluations: &'a Evaluations<'a>,
     centre: Point,
     radius: f64,
     penalty: f64,
-    settled: Settled,
-    /// Optima found before, and the one that this search came to.
+    verify_at: VerifyAt,
+    /// Optima found before.
     known: &'a [Found],
+    /// The known optimum at which this search arrived.
     arrived: Option<&'a Found>,
-    /// The violation cannot be reduced around the centre.
+    /// True if the violation cannot be reduced around the centre.
     infeasible: bool,
-    /// The last step, whose multipliers are nearly those of the next.
+    /// The last step: a warm start for the multipliers of the next.
     step: Option<Step>,
     certificate: Option<Certificate>,
 }
@@ -206,14 +213,14 @@ impl Region<'_> {
         let n = self.centre.x.len();
         self.centre = self.evaluations.graded_at(&self.centre.x)?;
         if !has_gradients(&self.centre) {
-            let first = pattern(&self.centre.x, self.step_length(), n <= FEW);
+            let first = pattern(&self.centre.x, self.step_length(), n <= FEW_VARIABLES);
             self.evaluations.all(&first)?;
         }
         let mut verified = 0;
         let mut last: Option<Vec<f64>> = None;
-        for _ in 0..ITERATIONS {
+        for _ in 0..MAX_ITERATIONS {
             let Some((surrogate, step)) = self.model()? else {
-                if self.radius < self.settled.radius {
+                if self.radius < self.verify_at.radius {
                     return Ok(());
                 }
                 self.radius /= 4.0;
@@ -222,22 +229,26 @@ impl Region<'_> {
             let weights = self.weights();
             let none = DVector::zeros(n);
             let expected = weights.merit(&surrogate, &none) - weights.merit(&surrogate, &step.d);
-            let settled = self.radius < self.settled.radius || expected < self.settled.gain;
-            if self.infeasible || settled {
-                if self.radius > VERIFY {
-                    self.radius = (self.radius / 4.0).max(VERIFY);
+            let verify_now = self.radius < self.verify_at.radius || expected < self.verify_at.gain;
+            if self.infeasible || verify_now {
+                if self.radius > VERIFY_DISTANCE {
+                    self.radius = (self.radius / 4.0).max(VERIFY_DISTANCE);
                     continue;
                 }
                 let improvable = self.verify()?;
                 verified += 1;
-                if !improvable || verified > SENT_ON {
+                if !improvable || verified > MAX_RESUMPTIONS {
                     return Ok(());
                 }
                 // From where it was verified before, the search looks closer.
                 let stays = last.as_ref() == Some(&self.centre.x);
-                self.radius = if stays { VERIFY / 20.0 } else { VERIFY };
+                self.radius = if stays {
+                    VERIFY_DISTANCE / 20.0
+                } else {
+                    VERIFY_DISTANCE
+                };
                 last = Some(self.centre.x.clone());
-                self.settled = SETTLED[1];
+                self.verify_at = VERIFY_AT[1];
                 continue;
             }
             self.advance(&step.d, expected)?;
@@ -250,8 +261,8 @@ impl Region<'_> {
         Ok(())
     }
 
-    /// Whether the search has come to a known optimum, or so near and so far down its slope that it
-    /// will; of designs of least violation the violation counts.
+    /// True if the search has arrived at a known optimum: at the design, or at its height in its
+    /// neighbourhood. The height of a design of least violation is its violation.
     fn has_arrived(&self, known: &Found) -> bool {
         let height = |point: &Point| match (known.status, &point.values) {
             (Status::Optimal, _) => Some(point.merit(self.penalty)),
@@ -261,7 +272,7 @@ impl Region<'_> {
         let (Some(here), Some(there)) = (height(&self.centre), height(&known.point)) else {
             return false;
         };
-        let is_level = (-SAME..LEVEL).contains(&(here - there));
+        let is_level = (-EQUAL_OBJECTIVES..NEIGHBOUR_LEVEL).contains(&(here - there));
         let is_near = |within: f64| near(&known.point.x, &self.centre.x, within);
         is_near(NEIGHBOUR) && is_level || known.status == Status::Optimal && is_near(ARRIVED)
     }
@@ -274,14 +285,14 @@ impl Region<'_> {
     }
 
     fn step_length(&self) -> f64 {
-        (SAMPLING * self.radius).max(CLOSEST)
+        (SAMPLE_SHARE * self.radius).max(LEAST_SAMPLE_DISTANCE)
     }
 
-    /// Surrogates whose gradients are determined, and the step that they propose. `None` where
-    /// evaluations fail all around or Clarabel does.
+    /// Surrogates with determined gradients, and the step that minimises them. `None` if the evaluations
+    /// around the centre fail, or Clarabel does.
     fn model(&mut self) -> Result<Option<(Surrogate, Step)>, Stop> {
         let n = self.centre.x.len();
-        let near = self.radius.max(CLOSEST);
+        let near = self.radius.max(LEAST_SAMPLE_DISTANCE);
         if has_gradients(&self.centre) {
             let around = self.evaluations.around(&self.centre.x);
             let Some(surrogate) = Surrogate::from_gradients(&self.centre, &around) else {
@@ -296,7 +307,7 @@ impl Region<'_> {
             }
             let designs = along(&self.centre.x, self.step_length(), &missing);
             let points = self.evaluations.all(&designs)?;
-            // Where a design failed, the other way is tried.
+            // A design that failed is replaced by its mirror image about the centre.
             let back: Vec<Vec<f64>> = points
                 .iter()
                 .filter(|p| p.values.is_err())
@@ -320,7 +331,7 @@ impl Region<'_> {
             .collect()
     }
 
-    /// The step, with the penalty raised as far as feasibility asks for it.
+    /// Step of the subproblem, with the penalty raised as far as feasibility needs.
     fn steer(&mut self, surrogate: &Surrogate) -> Option<Step> {
         let x = &self.centre.x;
         let lower = DVector::from_fn(x.len(), |i, _| (-self.radius).max(-x[i]));
@@ -330,8 +341,8 @@ impl Region<'_> {
         };
         let mut step = minimise(self.weights(), self.step.as_ref())?;
         self.infeasible = false;
-        // The program's own accuracy is no reason to raise the penalty.
-        let negligible = FEASIBLE.max(NEGLIGIBLE * self.radius);
+        // A violation at the accuracy of the program does not raise the penalty.
+        let negligible = FEASIBLE.max(NEGLIGIBLE_VIOLATION * self.radius);
         if surrogate.violation(&step.d) > negligible {
             let feasibility = Weights {
                 objective: 0.0,
@@ -339,8 +350,8 @@ impl Region<'_> {
             };
             let here = surrogate.violation(&DVector::zeros(x.len()));
             let least = surrogate.violation(&minimise(feasibility, None)?.d);
-            self.infeasible = here > FEASIBLE && here - least < self.settled.gain;
-            // Nine tenths of what feasibility alone would gain.
+            self.infeasible = here > FEASIBLE && here - least < self.verify_at.gain;
+            // Nine tenths of the gain in feasibility that is possible.
             let enough = (least + 0.1 * (here - least)).max(negligible);
             let mut penalty = self.penalty;
             while surrogate.violation(&step.d) > enough && penalty < HIGHEST_PENALTY {
@@ -359,14 +370,14 @@ impl Region<'_> {
         Some(step)
     }
 
-    /// Tries the step and settles the radius.
+    /// Evaluates the step, and updates centre and radius.
     fn advance(&mut self, d: &DVector<f64>, expected: f64) -> Result<(), Stop> {
         let x: Vec<f64> = self
             .centre
             .x
             .iter()
             .zip(d)
-            .map(|(x, d)| onto_bound(x + d, SHORT))
+            .map(|(x, d)| onto_bound(x + d, BOUND_SNAP))
             .collect();
         let trial = self.evaluations.graded_at(&x)?;
         let gain = self.centre.merit(self.penalty) - trial.merit(self.penalty);
@@ -387,7 +398,7 @@ impl Region<'_> {
     }
 
     /// Verifies the first-order conditions, by exact gradients or by fresh evaluations on both sides of
-    /// the centre. Whether the search should go on from there.
+    /// the centre. Returns true if the search should go on from there.
     fn verify(&mut self) -> Result<bool, Stop> {
         self.certificate = None;
         if has_gradients(&self.centre) {
@@ -400,7 +411,7 @@ impl Region<'_> {
             let holds = residual.is_some_and(|r| r <= KKT_TOLERANCE / 10.0);
             return Ok(!holds && !self.infeasible);
         }
-        for distance in std::iter::once(VERIFY).chain(VERIFY_CLOSELY) {
+        for distance in std::iter::once(VERIFY_DISTANCE).chain(VERIFY_CLOSER_DISTANCES) {
             let designs = pattern(&self.centre.x, distance, false);
             let fresh = self.evaluations.all(&designs)?;
             let around: Vec<(f64, Point)> = fresh.into_iter().map(|p| (distance, p)).collect();
@@ -419,9 +430,9 @@ impl Region<'_> {
             if residual(&self.certificate) <= KKT_TOLERANCE / 10.0 || self.infeasible {
                 return Ok(false);
             }
-            // What the fresh designs themselves show is taken at once.
+            // A better one of the fresh designs becomes the centre.
             let better = around.iter().map(|(_, p)| p).find(|p| {
-                self.centre.merit(self.penalty) - p.merit(self.penalty) > 10.0 * self.settled.gain
+                self.centre.merit(self.penalty) - p.merit(self.penalty) > 10.0 * self.verify_at.gain
             });
             if let Some(better) = better {
                 self.centre = better.clone();

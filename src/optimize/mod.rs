@@ -1,6 +1,6 @@
 //! Constrained optimisation around costly evaluations.
 //!
-//! A [`problem`] measures designs with the full models and judges what was measured. The
+//! A [`problem`] measures designs with the full models and judges the measurements. The
 //! [`archive`] keeps every measurement: it counts them against the budget, serves them again, and
 //! writes the [`journal`] from which a run can be resumed. [`solve`] searches locally from
 //! many designs (argmin drives the multistart; a trust-region method, whose subproblems are

@@ -5,10 +5,10 @@
 //! ```
 //!
 //! Columns of G are the gradients of the pieces and the outward normals of the bounds; c is how far
-//! each piece is from holding. G y is what is left of the stationarity, cᵀy of the complementarity.
+//! each piece is from being active. G y is the residual of stationarity, cᵀy of complementarity.
 //!
-//! Few of many pieces hold anything. Beyond [`FEW`] the program is solved for those nearest to
-//! holding; a column left out belongs in it where its reduced cost is negative,
+//! Few of many pieces are active. Beyond [`FEW`] the program is solved for the pieces nearest to
+//! being active; a column left out belongs in it if its reduced cost is negative,
 //!
 //! ```math
 //! g_jᵀ(G y) + c_j + z_k < 0,   z_k the multiplier of Σ_i μ_ki = 1 (0 for a constraint)
@@ -21,12 +21,12 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{problem::Values, subproblem, surrogate::Surrogate};
 
-/// Pieces up to which all are weighed at once, and pieces that join at a time.
+/// Number of pieces in the first program, and of pieces that join it at a time.
 const FEW: usize = 128;
-/// Reduced cost that counts as none: that of the program's own accuracy.
-const NONE: f64 = 1e-9;
-/// Weight of the squares of the multipliers: of equal sums of gradients the smallest.
-const SMALLEST: f64 = 1e-12;
+/// Reduced cost that counts as zero: the accuracy of the program.
+const ZERO_REDUCED_COST: f64 = 1e-9;
+/// Weight of the squares of the multipliers: among equal sums of gradients the smallest multipliers win.
+const RIDGE: f64 = 1e-12;
 
 /// The columns of the first-order conditions: objective pieces, constraint pieces, lower bounds,
 /// upper bounds.
@@ -34,14 +34,14 @@ pub(super) struct Conditions {
     n: usize,
     /// Gradients and outward normals.
     columns: Vec<DVector<f64>>,
-    /// How far each is from holding.
+    /// Distance of each from being active.
     pub gaps: Vec<f64>,
     /// Objective that each piece belongs to; `None` for a constraint.
     pub groups: Vec<Option<usize>>,
 }
 
 impl Conditions {
-    /// Of a design at scaled coordinates `x`.
+    /// Conditions of a design at scaled coordinates `x`.
     pub fn new(surrogate: &Surrogate, values: &Values, x: &[f64]) -> Self {
         let n = x.len();
         let objectives = surrogate.objectives.iter().enumerate();
@@ -105,7 +105,7 @@ impl Conditions {
             let left_out = (0..pieces).filter(|j| !weighed[*j]);
             let mut wanted: Vec<(f64, usize)> = left_out
                 .map(|j| (cost(j), j))
-                .filter(|(cost, _)| *cost < -NONE)
+                .filter(|(cost, _)| *cost < -ZERO_REDUCED_COST)
                 .collect();
             if wanted.is_empty() {
                 return Some(y);
@@ -151,7 +151,7 @@ impl Conditions {
         }
         let mut p = g.transpose() * &g;
         for i in 0..count {
-            p[(i, i)] += SMALLEST;
+            p[(i, i)] += RIDGE;
         }
         let gaps: Vec<f64> = chosen.iter().map(|j| self.gaps[*j]).collect();
         let (y, z) = subproblem::solve(&p, &gaps, &a, &b, groups)?;
@@ -198,7 +198,7 @@ mod tests {
         conditions.gradient_sum(y).norm_squared() / 2.0 + gaps.sum::<f64>()
     }
 
-    /// With columns left out and taken in as they are wanted the minimum is that of all columns.
+    /// Column generation reaches the minimum over all columns.
     #[test]
     fn columns_left_out_change_no_minimum() {
         for n in [2, 5] {

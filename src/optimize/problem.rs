@@ -4,12 +4,12 @@
 //! minimise  Σ_k max_i f_ki(x)   subject to   c_j(x) ≤ 0,   0 ≤ x ≤ 1
 //! ```
 //!
-//! x are the variables, scaled to their bounds. Every f_ki and c_j is a smooth *piece*: the degree
-//! curve is the least of several limits and the critical speed the least of several modes', so each
-//! of these is a piece of its own.
+//! x are the variables, scaled to their bounds. Every f_ki and c_j is a smooth *piece*: an index that is
+//! the least or the greatest of several smooth functions has a piece for each of them.
 
 use serde::{Deserialize, Serialize};
 
+pub use crate::failure::Failure;
 use crate::units::Quantity;
 
 /// A design variable between bounds.
@@ -17,20 +17,20 @@ use crate::units::Quantity;
 pub struct Variable {
     /// Name in tables and files.
     pub name: &'static str,
-    /// Symbol in the report.
+    /// Symbol in tables.
     pub symbol: &'static str,
     /// Kind of quantity, for units.
     pub quantity: Quantity,
     /// Bounds, SI.
     pub bounds: [f64; 2],
-    /// How the variable is scaled between them.
+    /// Scale between the bounds.
     pub scale: Scale,
 }
 
 /// Scale of a variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
-    /// Equal ratios are equal steps: stiffnesses, frequencies, damping ratios.
+    /// Equal ratios are equal steps.
     Logarithmic,
     /// Equal differences are equal steps.
     Linear,
@@ -72,16 +72,15 @@ impl Variable {
 pub struct Piece {
     /// Its value; in a problem's values scaled to order one.
     pub value: f64,
-    /// What it belongs to: the same index at every design.
+    /// Number of the index that it belongs to, the same at every design.
     pub index: usize,
-    /// Among pieces of one index, what continues it from one design to the next (the logarithm of
-    /// a hunting frequency).
+    /// Label that identifies it among the pieces of one index: it changes continuously with the design.
     pub label: f64,
-    /// Its gradient over the variables' scaled coordinates, where it was asked for and is known.
+    /// Gradient over the variables' scaled coordinates; `None` if not asked for or not known.
     pub gradient: Option<Vec<f64>>,
 }
 
-/// How much is measured of a design.
+/// Extent of a measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Detail {
     /// The pieces' values.
@@ -91,7 +90,7 @@ pub enum Detail {
 }
 
 impl Piece {
-    /// A piece that is alone in its index.
+    /// The only piece of an index.
     pub fn single(index: usize, value: f64) -> Self {
         Self {
             value,
@@ -102,7 +101,7 @@ impl Piece {
     }
 }
 
-/// What a design is worth to a problem.
+/// Objective and constraint values of a design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Values {
     /// f_ki: the objective is the sum over k of the largest piece of each.
@@ -117,7 +116,7 @@ impl Values {
         self.objectives.iter().map(|pieces| largest(pieces)).sum()
     }
 
-    /// Whether the gradients of all pieces are known.
+    /// True if the gradients of all pieces are known.
     pub fn has_gradients(&self) -> bool {
         let pieces = self.objectives.iter().flatten().chain(&self.constraints);
         pieces.into_iter().all(|piece| piece.gradient.is_some())
@@ -128,7 +127,7 @@ impl Values {
         largest(&self.constraints).max(0.0)
     }
 
-    /// Whether every constraint holds to [`FEASIBLE`].
+    /// True if every constraint holds to [`FEASIBLE`].
     pub fn feasible(&self) -> bool {
         self.violation() <= FEASIBLE
     }
@@ -142,61 +141,12 @@ pub fn largest(pieces: &[Piece]) -> f64 {
         .fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Why a design has no performance.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, thiserror::Error,
-)]
-#[serde(rename_all = "kebab-case")]
-pub enum Failure {
-    /// No stationary response exists.
-    #[error("unstable at the operating speed")]
-    Unstable,
-    /// A motion without oscillation grows: the carbody overturns, or the trucks diverge.
-    #[error("diverges: a static instability")]
-    Diverges,
-    /// The curving equations are singular.
-    #[error("no steady-state solution in a curve")]
-    NoCurve,
-    /// The load transfer in a curve takes all of the load of the wheels on one side.
-    #[error("wheel-lifted: no load on the wheels of one side")]
-    WheelLifted,
-    /// Beyond flange contact or slip, where the linear model has no verdict.
-    #[error("outside-model: beyond flange contact or slip")]
-    OutsideModel,
-    /// The index belongs to a curve that the service does not give.
-    #[error("no curve in [service]")]
-    NoServiceCurve,
-    /// No mode of the kind asked for exists.
-    #[error("no mode of that kind")]
-    NoMode,
-    /// The eigenvalue iteration gave up.
-    #[error("eigenvalues not converged")]
-    Eigenvalues,
-    /// The random response did not meet its tolerance.
-    #[error("random response not converged")]
-    #[serde(rename = "not-converged")]
-    Integration,
-    /// The end of the range searched bounds the index, and no more is known of it.
-    #[error("only-bounded: beyond the range searched")]
-    OnlyBounded,
-    /// An index came out infinite or undefined.
-    #[error("an index that is not a number")]
-    NotFinite,
-}
-
-impl Failure {
-    /// Whether the model does not cover what was asked, so that a demand on it is not assessed.
-    pub fn is_not_covered(self) -> bool {
-        matches!(self, Self::WheelLifted | Self::OutsideModel)
-    }
-}
-
-/// What identifies a measurement: equal keys, equal measurements.
+/// Identity of a measurement: equal keys have equal measurements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Key {
-    /// What is measured.
+    /// Kind of measurement.
     pub what: String,
-    /// Of which design, SI.
+    /// Design, SI.
     pub at: Vec<f64>,
 }
 
@@ -208,7 +158,7 @@ pub trait Problem: Sync {
     /// Name of the pieces with an index.
     fn piece_name(&self, index: usize) -> String;
 
-    /// Identifies what [`Problem::measure`] gives at x.
+    /// Key of the measurement at x.
     fn key(&self, x: &[f64]) -> Key {
         Key {
             what: String::new(),
@@ -216,22 +166,22 @@ pub trait Problem: Sync {
         }
     }
 
-    /// Evaluates the full models at scaled coordinates x: the costly part.
+    /// Evaluates the models at scaled coordinates x: the costly part.
     ///
     /// # Errors
     ///
     /// [`Failure`] where the design has no such performance.
     fn measure(&self, x: &[f64], detail: Detail) -> Result<Vec<Piece>, Failure>;
 
-    /// Whether gradients can be had.
+    /// True if the problem computes gradients.
     fn has_gradients(&self) -> bool {
         false
     }
 
-    /// Objective and constraints from what was measured.
+    /// Objective and constraints from a measurement.
     fn judge(&self, measured: &[Piece]) -> Values;
 
-    /// Both.
+    /// Measures and judges.
     ///
     /// # Errors
     ///
@@ -246,14 +196,15 @@ pub trait Problem: Sync {
 pub struct Point {
     /// Scaled coordinates.
     pub x: Vec<f64>,
-    /// Values there, or why there are none.
+    /// Values there, or the reason why there are none.
     pub values: Result<Values, Failure>,
 }
 
-/// Constraint values up to this count as satisfied: a millionth of what is allowed.
+/// Tolerance of constraints: a millionth of the bound.
 pub const FEASIBLE: f64 = 1e-6;
-/// Objectives closer than this are the same: what the tolerance on first-order conditions leaves.
-pub(super) const SAME: f64 = 2e-5;
+/// Difference of two objectives below which they are equal: the error that the tolerance on first-order
+/// conditions leaves.
+pub(super) const EQUAL_OBJECTIVES: f64 = 2e-5;
 
 impl Point {
     /// Exact penalty merit, finite everywhere: evaluated designs by objective and largest
@@ -274,19 +225,19 @@ impl Point {
         }
     }
 
-    /// Its objective; infinite if it could not be evaluated.
+    /// Objective; infinite without values.
     pub fn objective(&self) -> f64 {
         let values = self.values.as_ref();
         values.map_or(f64::INFINITY, Values::objective)
     }
 
-    /// Whether it could be evaluated and every constraint holds.
+    /// True if it has values and every constraint holds.
     pub fn feasible(&self) -> bool {
         self.values.as_ref().is_ok_and(Values::feasible)
     }
 
-    /// Feasible designs before infeasible ones, those by their objective and these by their
-    /// violation; ties by position, so that the order never depends on the order of evaluation.
+    /// True if it ranks before another: feasible points by objective, then infeasible ones by violation.
+    /// Position decides ties, so that the rank does not depend on the order of evaluation.
     pub fn better_than(&self, other: &Self) -> bool {
         self.order(other).is_lt()
     }

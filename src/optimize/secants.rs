@@ -1,13 +1,13 @@
-//! Surrogates from gradients: exact to first order at the centre, with the curvature that the
-//! gradients at other designs show.
+//! Surrogates from gradients: exact to first order at the centre, with curvature from the gradients at
+//! other designs.
 //!
 //! ```math
 //! m(d) = v + gᵀd + ½ dᵀH d,   min_H Σ_p |H d_p − (g_p − g)|²/σ_p² + ‖H‖²/τ²,   σ_p = ν + |d_p|²
 //! ```
 //!
-//! Every design with a gradient is a secant condition, weighted by what it can be relied on: third
-//! derivatives make it wrong by the square of the distance, rounding by ν. In directions that no
-//! design shows, the least curvature is taken, as in [`super::surrogate`]. All conditions are kept
+//! Every design with a gradient gives a secant condition, weighted by its error: third derivatives
+//! contribute the square of the distance, rounding ν. In directions without a design the least
+//! curvature is taken, as in [`super::surrogate`]. All conditions are kept
 //! at once, so that no order of updates matters. The normal equations are the same for all pieces that
 //! are known at the same designs, and factorised once for these.
 
@@ -19,27 +19,27 @@ use super::{
 };
 
 /// ν: rounding of gradients, in scaled units.
-const NOISE: f64 = 1e-6;
-/// τ: size of second derivatives that is nothing unusual.
-const CURVATURE: f64 = 100.0;
-/// Designs used, per variable.
-const PLENTY: usize = 4;
-/// Designs farther away than this say nothing.
-const FARTHEST: f64 = 0.5;
+const GRADIENT_ROUNDING: f64 = 1e-6;
+/// τ: usual size of second derivatives.
+const USUAL_CURVATURE: f64 = 100.0;
+/// Number of designs used per variable.
+const DESIGNS_PER_VARIABLE: usize = 4;
+/// Largest distance of a design that is used.
+const FARTHEST_DESIGN: f64 = 0.5;
 
 impl Surrogate {
-    /// From the gradients of the pieces of `centre`, which must be known, and of what they have
-    /// become at the designs `around` it, which come with their distances, the nearest first. `None`
-    /// if a gradient at the centre is missing.
+    /// Surrogates from the gradients of the pieces of `centre` and of the same pieces at the designs
+    /// `around` it, given with their distances, the nearest first. `None` if a gradient at the centre is
+    /// missing.
     pub fn from_gradients(centre: &Point, around: &[(f64, Point)]) -> Option<Self> {
         let values = centre.values.as_ref().ok()?;
         let n = centre.x.len();
         let known: Vec<(DVector<f64>, &Values)> = around
             .iter()
-            .take_while(|(distance, _)| *distance <= FARTHEST)
+            .take_while(|(distance, _)| *distance <= FARTHEST_DESIGN)
             .filter_map(|(_, p)| Some((displacement(centre, p), p.values.as_ref().ok()?)))
             .filter(|(_, values)| values.has_gradients())
-            .take(PLENTY * n)
+            .take(DESIGNS_PER_VARIABLE * n)
             .collect();
         let mut secants = Secants::new(known.iter().map(|(d, _)| d.clone()).collect(), n);
         let mut of_pieces = |pieces: &[Piece], there: &[Option<&[Piece]>]| {
@@ -85,7 +85,7 @@ struct Secants {
     n: usize,
     /// Displacements of the designs.
     displacements: Vec<DVector<f64>>,
-    /// By the designs at which a piece is known.
+    /// Factors by the designs at which a piece is known.
     factors: Vec<(Vec<bool>, Factor)>,
 }
 
@@ -133,7 +133,7 @@ impl Secants {
                 // Off the diagonal an entry stands for two of H.
                 let times = if i == j { 1.0 } else { 2.0 };
                 let at = position(i, j);
-                normal[(at, at)] = times / (CURVATURE * CURVATURE);
+                normal[(at, at)] = times / (USUAL_CURVATURE * USUAL_CURVATURE);
             }
         }
         let designs = self.displacements.iter().zip(at).filter(|(_, at)| **at);
@@ -153,10 +153,10 @@ impl Secants {
 
 /// 1/σ² of a design at a displacement.
 fn weight(d: &DVector<f64>) -> f64 {
-    1.0 / (NOISE + d.norm_squared()).powi(2)
+    1.0 / (GRADIENT_ROUNDING + d.norm_squared()).powi(2)
 }
 
-/// Where the entry (i, j) of a symmetric matrix is kept.
+/// Position of entry (i, j) of a symmetric matrix.
 fn position(i: usize, j: usize) -> usize {
     let (low, high) = (i.min(j), i.max(j));
     high * (high + 1) / 2 + low

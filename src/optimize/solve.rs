@@ -1,4 +1,4 @@
-//! The search for the best design of a problem, and what is known of it.
+//! Search for the best design of a problem, with its status and certificate.
 
 use std::time::Instant;
 
@@ -20,20 +20,20 @@ use super::{
     violation::least_violation,
 };
 
-/// What solving a problem gave.
+/// Solution of a problem.
 #[derive(Debug, Clone)]
 pub struct Solved {
     /// The best design found.
     pub point: Point,
-    /// How the search for it ended.
+    /// Status of the search.
     pub status: Status,
     /// Its first- and second-order conditions, where they could be verified.
     pub certificate: Option<Certificate>,
-    /// What was spent.
+    /// Effort spent.
     pub effort: Effort,
     /// The local optima found, the best first.
     pub optima: Vec<Optimum>,
-    /// How far the space was searched; `None` where the search stayed near designs given.
+    /// Coverage of the space; `None` if the search stayed near given designs.
     pub coverage: Option<Coverage>,
 }
 
@@ -62,7 +62,7 @@ impl Solved {
     }
 }
 
-/// How far the space was searched for other optima.
+/// Coverage of the space by searches for other optima.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coverage {
     /// Local searches from uniform points.
@@ -74,31 +74,31 @@ pub struct Coverage {
 }
 
 impl Coverage {
-    /// Whether basins not yet seen are as unlikely as asked for.
+    /// True if the expected share of basins not yet seen is within the bound.
     pub fn is_enough(&self) -> bool {
         self.unseen <= self.bound
     }
 }
 
-/// Not one design could be evaluated.
+/// Reason why no design has values.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NoDesign {
     /// All evaluations failed.
     #[error("no design within the bounds could be evaluated: {0}")]
     Failed(Failure),
-    /// The search ended before one could.
+    /// The search ended before any evaluation.
     #[error("{0} before any design was evaluated")]
     Stopped(#[from] Stop),
 }
 
-/// Seed of a search everywhere that takes the place of one nearby.
+/// Seed of a global search that replaces a local one.
 const AGAIN: u64 = 1;
 
 /// Solves a problem.
 ///
 /// # Errors
 ///
-/// [`NoDesign`] if not one design could be evaluated.
+/// [`NoDesign`] if no design could be evaluated.
 pub fn solve(problem: &dyn Problem, start: &Start, archive: &Archive) -> Result<Solved, NoDesign> {
     let clock = Instant::now();
     let before = archive.spent();
@@ -148,8 +148,7 @@ pub fn solve(problem: &dyn Problem, start: &Start, archive: &Archive) -> Result<
     })
 }
 
-/// Searches from where `start` says; where what changed since has left the designs of a search
-/// nearby without a performance, everywhere.
+/// Search from `start`; a global one if no design of a local start has values any more.
 fn explore(problem: &dyn Problem, start: &Start, archive: &Archive) -> Explored {
     let explored = global::explore(problem, archive, start);
     let is_empty = explored.basins.searches() == 0 && explored.stop.is_none();
@@ -186,7 +185,7 @@ fn alone(problem: &dyn Problem, archive: &Archive) -> Result<Explored, NoDesign>
     })
 }
 
-/// The best local result, unless some other evaluation was better: never merely the last.
+/// The best local result, or a better evaluated design.
 fn finish(explored: &Explored) -> Result<Found, NoDesign> {
     let Some(met) = explored.met.as_ref().filter(|p| p.values.is_ok()) else {
         return Err(match (explored.stop, &explored.met) {

@@ -1,21 +1,21 @@
-//! Where a search begins.
+//! Starts of a search.
 
 use super::local;
 
-/// Bound on the share of the space in basins not yet seen, unless told otherwise: with it a search
-/// that found w local optima followed about 4.5 w + 2 uniform points.
+/// Default bound on the share of the space in basins not yet seen: a search that finds w local optima
+/// then follows about 4.5 w + 2 uniform points.
 pub const UNSEEN: f64 = 0.05;
 /// The bound of a thorough search.
 pub const UNSEEN_THOROUGH: f64 = 0.01;
 
-/// Where a search begins.
+/// Starts of a search.
 #[derive(Debug, Clone)]
 pub struct Start {
-    /// Search everywhere; otherwise only from `designs`.
+    /// Global search; `None`: only from `designs`.
     pub everywhere: Option<Everywhere>,
-    /// Designs to begin from besides, in scaled coordinates.
+    /// Designs to start from besides, in scaled coordinates.
     pub designs: Vec<Vec<f64>>,
-    /// Trust radius around these; a search everywhere sets its own.
+    /// First trust radius around these; a global search sets its own.
     pub radius: f64,
 }
 
@@ -24,15 +24,14 @@ pub struct Start {
 pub struct Everywhere {
     /// Seed of the uniform points.
     pub seed: u64,
-    /// The search goes on until the estimated share of the space in basins not yet seen is below
-    /// this.
+    /// Bound on the estimated share of the space in basins not yet seen, at which the search ends.
     pub unseen: f64,
-    /// Whether it is also begun from the far ends of the best design's variables.
+    /// True if searches also start from the far ends of the best design's variables.
     pub turns: bool,
 }
 
 impl Start {
-    /// Anywhere, with a seed.
+    /// Global search with a seed.
     pub fn everywhere(seed: u64) -> Self {
         Self {
             everywhere: Some(Everywhere {
@@ -45,7 +44,7 @@ impl Start {
         }
     }
 
-    /// Near designs that were optimal for a slightly different problem.
+    /// Local searches near designs that were optimal for a slightly different problem.
     pub fn near(designs: Vec<Vec<f64>>) -> Self {
         Self {
             everywhere: None,
@@ -54,7 +53,7 @@ impl Start {
         }
     }
 
-    /// With another bound on the share of the space in basins not yet seen.
+    /// Sets the bound on the share of the space in basins not yet seen.
     #[must_use]
     pub fn until(mut self, unseen: f64) -> Self {
         if let Some(everywhere) = &mut self.everywhere {
@@ -63,8 +62,7 @@ impl Start {
         self
     }
 
-    /// Only from uniform points and designs known: enough for the estimate of unseen basins, but less
-    /// sure.
+    /// Without starts from far ends: enough for the estimate of unseen basins, but less reliable.
     #[must_use]
     pub fn plainly(mut self) -> Self {
         if let Some(everywhere) = &mut self.everywhere {
@@ -73,7 +71,7 @@ impl Start {
         self
     }
 
-    /// Looks at these designs too.
+    /// Adds designs to start from.
     #[must_use]
     pub fn with(mut self, designs: Vec<Vec<f64>>) -> Self {
         self.designs.extend(designs);

@@ -21,12 +21,12 @@ use nalgebra::{DMatrix, DVector, Dyn, SymmetricEigen};
 
 use super::surrogate::{Quadratic, Surrogate};
 
-/// Programs solved for one subproblem.
-const PROGRAMS: usize = 12;
-/// Smallest curvature of H, per radius.
-const CURVATURE: f64 = 1e-6;
-/// Settling of the step, in radii: the surrogate is not as good as that.
-const SETTLED: f64 = 1e-3;
+/// Limit on the programs solved for one subproblem.
+const MAX_PROGRAMS: usize = 12;
+/// Least curvature of H, per radius.
+const LEAST_CURVATURE: f64 = 1e-6;
+/// Change of the step, in radii, at which the programs have converged: below the error of the surrogate.
+const STEP_CONVERGED: f64 = 1e-3;
 
 /// Solution of a subproblem.
 #[derive(Debug, Clone)]
@@ -40,14 +40,14 @@ pub(super) struct Step {
 }
 
 impl Step {
-    /// Whether two steps have multipliers of as many pieces.
+    /// True if two steps have equally many multipliers.
     fn is_like(&self, other: &Self) -> bool {
         let pieces = |step: &Self| step.objectives.iter().map(Vec::len).collect::<Vec<_>>();
         pieces(self) == pieces(other) && self.constraints.len() == other.constraints.len()
     }
 }
 
-/// What a subproblem minimises.
+/// Weights of objective and violation in a subproblem.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Weights {
     /// w: 1, or 0 to look for feasibility alone.
@@ -57,13 +57,14 @@ pub(super) struct Weights {
 }
 
 impl Weights {
+    /// Merit of a displacement.
     pub fn merit(self, surrogate: &Surrogate, d: &DVector<f64>) -> f64 {
         self.objective * surrogate.objective(d) + self.penalty * surrogate.violation(d)
     }
 }
 
-/// Minimises the surrogate inside the box `lower` ≤ d ≤ `upper`, whose size is `radius`. Multipliers of
-/// one `before`, nearby, are a good beginning. `None` if Clarabel fails.
+/// Minimises the surrogate inside the box `lower` ≤ d ≤ `upper`, whose size is `radius`. The
+/// multipliers of a step `before` are a warm start. `None` if Clarabel fails.
 pub(super) fn minimise(
     surrogate: &Surrogate,
     lower: &DVector<f64>,
@@ -85,7 +86,7 @@ pub(super) fn minimise(
     }
     let mut best: Option<(f64, Step)> = None;
     let mut damping = 0.0;
-    for _ in 0..PROGRAMS {
+    for _ in 0..MAX_PROGRAMS {
         let Some(mut next) = program(surrogate, &step, lower, upper, radius, weights, damping)
         else {
             break;
@@ -102,7 +103,7 @@ pub(super) fn minimise(
             }
         }
         step = next;
-        if moved < SETTLED * radius {
+        if moved < STEP_CONVERGED * radius {
             break;
         }
     }
@@ -128,15 +129,15 @@ fn program(
         .map(|pieces| pieces.iter().map(linear).collect())
         .collect();
     for pieces in &mut objectives {
-        // The largest is at least this, wherever the step goes.
+        // Lower bound of the largest piece over the box.
         let least = pieces.iter().map(|piece| piece.range[0]);
         let least = least.fold(f64::NEG_INFINITY, f64::max);
         leave_out_below(pieces, least);
     }
     let mut constraints: Vec<Linear> = surrogate.constraints.iter().map(linear).collect();
     leave_out_below(&mut constraints, 0.0);
-    // Column of the variable that is to be above each piece, and what its value counts from: the largest
-    // of an objective, as what matters is small beside that.
+    // Column of the epigraph variable of each piece, and the value that is subtracted from both: the
+    // largest piece of an objective, because differences between the pieces are small beside it.
     let slack = n + groups;
     let of_objectives = objectives.iter().enumerate().flat_map(|(k, pieces)| {
         let values = pieces.iter().map(|piece| piece.value);
@@ -152,7 +153,7 @@ fn program(
     let mut p = DMatrix::zeros(columns, columns);
     let hessian = lagrangian_hessian(surrogate, from) * radius;
     p.view_mut((0, 0), (n, n))
-        .copy_from(&convex(hessian, CURVATURE, damping)?);
+        .copy_from(&convex(hessian, LEAST_CURVATURE, damping)?);
     let mut q = vec![0.0; columns];
     q[n..n + groups].fill(weights.objective);
     q[slack] = weights.penalty;
@@ -175,7 +176,7 @@ fn program(
     let (x, z) = solve(&p, &q, &a, &b, 0)?;
     let s = DVector::from_column_slice(&x[..n]) * radius;
     let mut found = z.into_iter();
-    // What cannot matter has none.
+    // A piece left out has no multiplier.
     let mut multiplier = |piece: &Linear| {
         let own = if piece.matters { found.next() } else { None };
         own.unwrap_or(0.0)
@@ -190,14 +191,14 @@ fn program(
     })
 }
 
-/// Leaves out pieces that stay below a value wherever the step goes.
+/// Leaves out pieces that stay below a value over the whole box.
 fn leave_out_below(pieces: &mut [Linear], value: f64) {
     for piece in pieces {
         piece.matters = piece.range[1] >= value;
     }
 }
 
-/// A piece linearised at a step, and between what values it can be within the box.
+/// A piece linearised at a step, and its range of values over the box.
 struct Linear {
     value: f64,
     gradient: DVector<f64>,

@@ -4,9 +4,9 @@
 //! m(d) = v + gᵀd + ½ dᵀH d,   min_{g,H} Σ_p w_p² (m(d_p) − v_p)² + μ² ‖H‖²
 //! ```
 //!
-//! All designs evaluated near the centre serve, whatever they were evaluated for. The error of a
-//! quadratic grows with the cube of the distance, and so does the weight fall: near designs decide
-//! the gradient, farther ones only what these leave open of the curvature. The small μ picks the
+//! All evaluated designs near the centre are used. The error of a quadratic grows with the cube of the
+//! distance, and the weight falls with it: near designs decide the gradient, farther ones only the
+//! curvature that the near ones leave open. The small μ picks the
 //! least curvature where the data determine none, as in Powell's minimum-norm models (Conn,
 //! Scheinberg, Vicente: *Introduction to Derivative-Free Optimization*, 2009, section 5.3).
 
@@ -41,20 +41,22 @@ pub(super) struct Surrogate {
     pub constraints: Vec<Quadratic>,
 }
 
-/// Pieces of one index are the same where their labels differ by less than this: hunting
-/// frequencies within 20 %.
-const SAME: f64 = 0.2;
-/// Designs farther than this many radii say nothing.
-const FARTHEST: f64 = 30.0;
-/// Designs used, in multiples of the coefficients of a quadratic.
-const PLENTY: usize = 2;
-/// μ relative to the weight of a design one radius away.
-const RIDGE: f64 = 1e-5;
-/// Directions count as known where they leave the others by this share of the radius.
-const POISED: f64 = 0.2;
+/// Difference of the labels of two pieces of one index below which they may be the same piece.
+const SAME_LABEL: f64 = 0.2;
+/// Distance of a constraint piece below its limit from which it is far from it.
+const FAR_FROM_LIMIT: f64 = 0.2;
+/// Largest distance, in radii, of a design that is used.
+const FARTHEST_DESIGN: f64 = 30.0;
+/// Number of designs used per coefficient of a quadratic.
+const DESIGNS_PER_COEFFICIENT: usize = 2;
+/// μ over the weight of a design one radius away.
+const RIDGE_SHARE: f64 = 1e-5;
+/// Component of a displacement orthogonal to the known directions, as a share of the radius, above which
+/// it adds a direction.
+const KNOWN_DIRECTION: f64 = 0.2;
 
-/// Unit directions of the whole space that designs within twice `radius` leave unknown. `around`
-/// has the displacements from the centre.
+/// Axes along which the designs within twice `radius` determine no derivative. `around` has the
+/// displacements from the centre.
 pub(super) fn unknown_directions(around: &[DVector<f64>], n: usize, radius: f64) -> Vec<usize> {
     let mut basis: Vec<DVector<f64>> = Vec::new();
     for d in around {
@@ -62,7 +64,7 @@ pub(super) fn unknown_directions(around: &[DVector<f64>], n: usize, radius: f64)
             continue;
         }
         let rest = residual(d, &basis);
-        if rest.norm() >= POISED * radius {
+        if rest.norm() >= KNOWN_DIRECTION * radius {
             basis.push(rest.normalize());
         }
     }
@@ -83,7 +85,7 @@ pub(super) fn unknown_directions(around: &[DVector<f64>], n: usize, radius: f64)
     missing
 }
 
-/// What is left of `d` beside an orthonormal basis.
+/// Component of `d` orthogonal to an orthonormal basis.
 fn residual(d: &DVector<f64>, basis: &[DVector<f64>]) -> DVector<f64> {
     let mut rest = d.clone();
     for b in basis {
@@ -138,18 +140,18 @@ pub(super) fn pattern(centre: &[f64], step: f64, cross: bool) -> Vec<Vec<f64>> {
 }
 
 impl Surrogate {
-    /// Fits every piece of `centre` to what it has become at the designs `around` it, which come
-    /// with their distances, the nearest first. Designs that failed and pieces that vanished are
-    /// left out; `None` where too few remain even for a gradient.
+    /// Least-squares fit of every piece of `centre` to its values at the designs `around` it, given with
+    /// their distances, the nearest first. Failed designs and vanished pieces are left out. `None` if too
+    /// few remain for a gradient.
     pub fn fit(centre: &Point, around: &[(f64, Point)], radius: f64) -> Option<Self> {
         let values = centre.values.as_ref().ok()?;
         let n = centre.x.len();
         let terms = n + n * (n + 1) / 2;
         let known: Vec<(DVector<f64>, &Values)> = around
             .iter()
-            .take_while(|(distance, _)| *distance <= FARTHEST * radius)
+            .take_while(|(distance, _)| *distance <= FARTHEST_DESIGN * radius)
             .filter_map(|(_, p)| Some((displacement(centre, p), p.values.as_ref().ok()?)))
-            .take(PLENTY * terms)
+            .take(DESIGNS_PER_COEFFICIENT * terms)
             .collect();
         if known.len() < n {
             return None;
@@ -192,9 +194,9 @@ impl Surrogate {
         let there = known.iter().map(|(_, v)| ByIndex::new(&v.constraints));
         let (here, there) = (ByIndex::new(&values.constraints), there.collect::<Vec<_>>());
         let constraints = values.constraints.iter().map(|piece| {
-            // A piece about to vanish that is far from its limit holds nothing back.
+            // A vanishing piece far from its limit stays inactive.
             fit_piece(piece, &here, &there)
-                .or_else(|| (piece.value < -SAME).then(|| constant(piece.value)))
+                .or_else(|| (piece.value < -FAR_FROM_LIMIT).then(|| constant(piece.value)))
         });
         let constraints = constraints.collect::<Option<Vec<_>>>()?;
         Some(Self {
@@ -232,11 +234,11 @@ pub(crate) fn follow(centre: &[Piece], k: usize, other: &[Piece]) -> Option<f64>
     found.map(|piece| piece.value)
 }
 
-/// Pieces by their index: what one of many has become elsewhere is found without a look at all.
+/// Pieces by their index, for a quick search.
 pub(super) struct ByIndex<'p>(HashMap<usize, Vec<&'p Piece>>);
 
 impl<'p> ByIndex<'p> {
-    /// Of the pieces of one objective, or of the constraints.
+    /// Index of the pieces of one objective, or of the constraints.
     pub fn new(pieces: &'p [Piece]) -> Self {
         let mut by_index: HashMap<usize, Vec<&'p Piece>> = HashMap::new();
         for piece in pieces {
@@ -245,12 +247,11 @@ impl<'p> ByIndex<'p> {
         Self(by_index)
     }
 
-    /// What a `piece`, one of these, is among the pieces of an `other` design: of those of the same
-    /// index with a label near, the one with the same rank. Ranks are those of the labels where these
-    /// keep further apart than they move (two modes whose values cross), otherwise those of the values
-    /// (two modes that nearly coincide).
+    /// Match of a `piece` of this design among the pieces of an `other`: the piece of the same index with a
+    /// near label and the same rank. Pieces are ranked by label if the labels are further apart than they
+    /// move (values that cross), otherwise by value (values that nearly coincide).
     pub fn follow<'q>(&self, piece: &Piece, other: &ByIndex<'q>) -> Option<&'q Piece> {
-        let near = |p: &&Piece| (p.label - piece.label).abs() < SAME;
+        let near = |p: &&Piece| (p.label - piece.label).abs() < SAME_LABEL;
         let mut own: Vec<&Piece> = self.0.get(&piece.index).cloned().unwrap_or_default();
         own.retain(near);
         let mut others: Vec<&'q Piece> = other.0.get(&piece.index).cloned().unwrap_or_default();
@@ -303,7 +304,7 @@ impl Fit {
             }
         }
         for k in 0..curvatures {
-            a[(designs.len() + k, n + k)] = RIDGE;
+            a[(designs.len() + k, n + k)] = RIDGE_SHARE;
         }
         let svd = SVD::try_new(a, true, true, f64::EPSILON, 1000)?;
         Some(Self {

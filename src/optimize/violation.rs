@@ -1,4 +1,4 @@
-//! What comes closest to meeting constraints that cannot all be met.
+//! Least violation of constraints that cannot all be met.
 
 use super::{
     archive::{Archive, Measured},
@@ -7,7 +7,7 @@ use super::{
     problem::{Detail, Failure, Key, Piece, Point, Problem, Values, Variable},
 };
 
-/// The constraints of a problem as its objective: what comes closest to meeting them.
+/// Relaxation of a problem: its largest constraint is the objective.
 struct Violation<'a>(&'a dyn Problem);
 
 impl Problem for Violation<'_> {
@@ -39,8 +39,8 @@ impl Problem for Violation<'_> {
     }
 }
 
-/// Reduces the largest violation as far as it goes. The certificate is that of the reduction: its
-/// objective multipliers tell which constraints conflict.
+/// Local search for the least of the largest violation, from a design. The certificate is that of the
+/// relaxation: its objective multipliers name the conflicting constraints.
 pub(super) fn least_violation(problem: &dyn Problem, archive: &Archive, from: Found) -> Found {
     let relaxed = Violation(problem);
     let evaluations = Evaluations::new(&relaxed, archive);
@@ -60,7 +60,7 @@ pub(super) fn least_violation(problem: &dyn Problem, archive: &Archive, from: Fo
         values: values.unwrap_or(Err(Failure::NotFinite)),
     };
     if point.feasible() {
-        // The reduction found what the search had missed: it goes on from there.
+        // The relaxation found a feasible design: the search goes on from there.
         let evaluations = Evaluations::new(problem, archive);
         return local::search(&evaluations, point, local::NARROW, &[]);
     }

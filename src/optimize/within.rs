@@ -1,4 +1,4 @@
-//! Designs within a small loss of an optimum: how far they reach, and the best of them by another aim.
+//! Designs within a small loss of an optimum: their extent, and the best of them by another aim.
 //!
 //! ```math
 //! minimise  Σ_i (l_i x_i + ½ w_i (x_i − z_i)²)
@@ -24,7 +24,7 @@ pub struct Goal {
     pub most: f64,
 }
 
-/// What is to be small: linear in the scaled coordinates, and quadratic around a centre.
+/// Secondary objective: linear in the scaled coordinates plus quadratic around a centre.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Aim {
     /// l.
@@ -68,12 +68,12 @@ impl Aim {
     }
 }
 
-/// A design that a search came to.
+/// Result of a search within the goals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reached {
     /// Its scaled coordinates. It keeps all goals and constraints.
     pub x: Vec<f64>,
-    /// Whether its first-order conditions hold: no design nearby does better by the aim.
+    /// True if its first-order conditions hold: no design nearby is better by the aim.
     pub is_optimal: bool,
 }
 
@@ -88,8 +88,8 @@ pub struct Near<'a> {
 }
 
 impl Near<'_> {
-    /// The design that is best by an aim, sought from `start`, whose coordinates `pinned` stay. `None`
-    /// if no design that keeps goals and constraints is found.
+    /// The best design by an aim, searched from `start` with its `pinned` coordinates fixed. `None` if no
+    /// design that keeps goals and constraints is found.
     ///
     /// # Errors
     ///
@@ -124,7 +124,7 @@ impl Near<'_> {
         }))
     }
 
-    /// Whether a design keeps all goals and constraints.
+    /// True if a design keeps all goals and constraints.
     ///
     /// # Errors
     ///
@@ -167,11 +167,11 @@ fn coordinate(i: usize) -> usize {
     usize::MAX - i
 }
 
-/// A sum of pieces of several groups that lies this far below the largest sum is left out: no step of a
-/// search that settles brings it up. Each design is judged with the sums at its own top.
-const FAR: f64 = 0.1;
-/// Sums kept of one goal, the largest.
-const SUMS: usize = 64;
+/// Distance below the largest sum of pieces at which a sum is left out: no step of a converging search
+/// raises it to the top. Each design is judged with its own largest sums.
+const IRRELEVANT_BELOW: f64 = 0.1;
+/// Largest number of sums kept per goal.
+const MOST_SUMS: usize = 64;
 
 impl Within<'_> {
     /// A whole design from its free coordinates.
@@ -200,11 +200,11 @@ impl Within<'_> {
         let goal = &self.goals[number];
         let zero = Piece {
             gradient: Some(vec![0.0; self.start.len()]),
-            // What the search lets pass lies on the right side of the bound.
+            // Values within the tolerance of the search lie on the right side of the bound.
             ..Piece::single(number + 1, FEASIBLE - goal.most)
         };
         let far = if goal.groups.len() > 1 {
-            FAR
+            IRRELEVANT_BELOW
         } else {
             f64::INFINITY
         };
@@ -223,7 +223,7 @@ impl Within<'_> {
                 .collect();
             if goal.groups.len() > 1 {
                 next.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-                next.truncate(SUMS);
+                next.truncate(MOST_SUMS);
             }
             sums = next;
         }

@@ -6,11 +6,9 @@ use serde_json::{Value, json};
 use super::Report;
 use crate::{
     case::Case,
-    chart::{
-        Axis, Drawing, Figure, Frame, Ink, Mark, Panel, Symbol, System, Text, Theme,
-        book::{Entry, Progress, Workbook, find},
-    },
+    chart::{Entry, Progress, Workbook, find},
     parameter::Parameter,
+    plot::{Axis, Drawing, Figure, Frame, Ink, Mark, Panel, Symbol, System, Text, Theme},
     spec::Spec,
 };
 
@@ -173,7 +171,7 @@ fn panel_data(panel: &Panel, frame: &Frame) -> Value {
             .collect();
         json!({
             "name": Text::new(name).plain(),
-            "log": axis.scale == crate::chart::Scale::Log,
+            "log": axis.scale == crate::plot::Scale::Log,
             "range": axis.range,
             "units": units,
         })

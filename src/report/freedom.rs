@@ -3,13 +3,14 @@
 
 use maud::{Markup, html};
 
-use super::{Report, typeset::symbol, typeset::typeset};
+use super::{
+    Report,
+    typeset::{symbol, typeset},
+};
 use crate::{
     design::{explain::Chosen, freedom::Free},
-    export::{
-        freedom::{bounds_met, delivered, ends, losses, meaning, variables},
-        number::in_unit,
-    },
+    export::freedom::{bounds_met, delivered, ends, losses, meaning, variables},
+    units::number::in_unit,
 };
 
 /// Length and height of a bar, in its own units.

@@ -9,20 +9,15 @@ use super::{
     typeset::typeset,
 };
 use crate::{
-    chart::{Axis, Curve, Family, Figure, Ink, Mark, Panel, Scale, Stroke, Symbol, System},
     design::{
         margin::worst_value,
         pareto::{Front, FrontPoint},
     },
-    export::{
-        certificate::certificate,
-        number::{both, significant, value},
-        pareto::sparse,
-        sheet::Sheet,
-        status,
-    },
+    export::{certificate::certificate, pareto::sparse, sheet::Sheet, status},
     index::Index,
     parameter::Parameter,
+    plot::{Axis, Curve, Family, Figure, Ink, Mark, Panel, Scale, Stroke, Symbol, System},
+    units::number::{both, significant, value},
 };
 
 /// The section; none without a front.
@@ -85,9 +80,9 @@ fn chart(report: &Report, front: &Front) -> Figure {
                 Family::new(
                     "front",
                     "",
-                    Stroke::new(Ink::Grey, crate::chart::Dash::Solid),
+                    Stroke::new(Ink::Grey, crate::plot::Dash::Solid),
                 )
-                .labelled(crate::chart::Labels::None)
+                .labelled(crate::plot::Labels::None)
                 .curve(line),
             );
         }

@@ -8,9 +8,10 @@ use super::{
 };
 use crate::{
     design::margin::{margins, value},
-    export::{certificate::reached as in_words, number::value as written},
+    export::certificate::reached as in_words,
     index::{Index, Sense},
     optimize::problem::Failure,
+    units::number::value as written,
 };
 
 /// The indices that the methodology trades off, and others that the objective names.

@@ -24,8 +24,8 @@ mod typeset;
 pub use page::page;
 
 use crate::{
-    chart::Figure,
     design::{outcome::DesignResult, pareto::Front, sensitivity::Sensitivity},
+    plot::Figure,
     spec::Spec,
 };
 

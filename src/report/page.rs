@@ -5,13 +5,20 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
 use super::{
-    Report, certificate::certificate, certificate::matters, charts::charts, checks::checks,
-    form::form, front::front, glance::glance, glance::performance, origin::origin,
-    parameters::parameters, requirement::requirement,
+    Report,
+    certificate::{certificate, matters},
+    charts::charts,
+    checks::checks,
+    form::form,
+    front::front,
+    glance::{glance, performance},
+    origin::origin,
+    parameters::parameters,
+    requirement::requirement,
 };
 use crate::{
-    chart::{Theme, stylesheet},
     export::evaluation_text::title,
+    plot::{Theme, stylesheet},
 };
 
 const STYLE: &str = include_str!("assets/report.css");

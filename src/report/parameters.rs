@@ -8,7 +8,7 @@ use super::{
     table::{Column, table},
     typeset::symbol,
 };
-use crate::{export::number::both, parameter::Parameter};
+use crate::{parameter::Parameter, units::number::both};
 
 /// The section.
 pub fn parameters(report: &Report) -> Markup {

@@ -7,13 +7,12 @@ use super::{
     table::{Column, table},
 };
 use crate::{
-    export::{
-        number::value,
-        number::{both, significant},
-    },
     index::{Demands, Sense},
     spec::{Condition, Freedom, Order, keys},
-    units::Quantity,
+    units::{
+        Quantity,
+        number::{both, significant, value},
+    },
 };
 
 /// The section.

@@ -6,8 +6,8 @@ use std::{collections::HashSet, sync::LazyLock};
 use maud::{Markup, html};
 
 use crate::{
-    chart::{Level, Text},
     parameter::Parameter,
+    plot::{Level, Text},
     spec::keys,
 };
 

@@ -1,7 +1,9 @@
 //! Curves of constant radius: degree of curve, cant deficiency, the FRA speed limit.
 
-use crate::units::us::{FOOT, INCH, MILE};
-use crate::vehicle::GRAVITY;
+use crate::units::{
+    GRAVITY,
+    us::{FOOT, INCH, MILE},
+};
 
 /// Chord that subtends the degree of curve, m: 100 ft.
 const CHORD: f64 = 100.0 * FOOT;

@@ -14,6 +14,7 @@ mod dimension;
 mod error;
 mod expression;
 mod key;
+pub mod number;
 mod quantity;
 mod range;
 mod symbol;
@@ -26,3 +27,6 @@ pub(crate) use key::number;
 pub use key::{Key, Need, Number, Slot, Table};
 pub use quantity::{DisplayUnit, Quantity};
 pub use range::Range;
+
+/// Standard acceleration of gravity, m/s² (CGPM 1901).
+pub const GRAVITY: f64 = 9.806_65;

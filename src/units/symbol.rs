@@ -1,8 +1,7 @@
 //! Unit symbols.
 
-use super::Dimension;
 use super::us::{FOOT, INCH, LBF, LBM, MILE, SLUG};
-use crate::vehicle::GRAVITY;
+use super::{Dimension, GRAVITY};
 
 const NONE: Dimension = Dimension::new(0, 0, 0, 0);
 const MASS: Dimension = Dimension::new(1, 0, 0, 0);

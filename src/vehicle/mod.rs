@@ -21,12 +21,11 @@ pub use suspension::{
 pub use truck::Truck;
 pub use wheelset::Wheelset;
 
+pub use crate::units::GRAVITY;
+
 use serde::Serialize;
 
 use crate::units::Table;
-
-/// Standard acceleration of gravity, m/s² (CGPM 1901).
-pub const GRAVITY: f64 = 9.806_65;
 
 /// The numbers of a vehicle, table by table.
 pub static TABLES: [&Table<Vehicle>; 10] = [

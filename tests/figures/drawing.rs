@@ -1,11 +1,11 @@
 //! How charts are drawn: labels, files, the same bits for any number of threads.
 
 use bogie::{
-    chart::{
+    chart::BOOK,
+    export::{figure as numbers, table::Column},
+    plot::{
         Axis, Curve, Drawing, Family, Figure, Ink, Mark, Panel, Scale, Stroke, Symbol, Theme, Unit,
-        book::BOOK, table,
     },
-    export::table::Column,
 };
 use proptest::prelude::*;
 
@@ -106,7 +106,7 @@ fn tables_agree_with_the_figures() {
         .flat_map(|f| &f.curves)
         .flat_map(Curve::points)
         .collect();
-    let text = table::tables(&lines)[0].1.csv();
+    let text = numbers::tables(&lines)[0].1.csv();
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     assert_eq!(
         reader.headers().unwrap(),
@@ -126,7 +126,7 @@ fn tables_agree_with_the_figures() {
 
     let contours = figure(&book, "4.6.1");
     let panel = &contours.panels[0];
-    let table = table::table(panel);
+    let table = numbers::table(panel);
     let columns: Vec<(&str, &Column)> = table.columns().collect();
     assert_eq!(columns.len(), 4);
     assert_eq!(table.rows(), 81);

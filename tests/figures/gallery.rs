@@ -2,7 +2,7 @@
 
 use std::{fs, path::Path};
 
-use bogie::chart::book::BOOK;
+use bogie::chart::BOOK;
 
 /// It shows every chart of the book once, in its order, and each picture is there.
 #[test]

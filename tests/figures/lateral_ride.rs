@@ -1,9 +1,9 @@
 //! What 4.4, 4.6 and the design forms of 4.7 say of lateral ride, strokes and excursions.
 
 use bogie::{
-    chart::{Curve, Figure},
     dynamics::LateralModel,
     evaluate::ride::LateralRide,
+    plot::{Curve, Figure},
     units::us::INCH,
     vehicle::GRAVITY,
 };

@@ -13,10 +13,8 @@ mod track;
 mod vertical_ride;
 
 use bogie::{
-    chart::{
-        Curve, Figure, System,
-        book::{Workbook, find},
-    },
+    chart::{Workbook, find},
+    plot::{Curve, Figure, System},
     spec::Spec,
 };
 

@@ -1,6 +1,6 @@
 //! What 4.3, 4.4 and 4.5.3 say of natural frequencies and damping.
 
-use bogie::chart::{Curve, Figure};
+use bogie::plot::{Curve, Figure};
 
 use super::{
     at, figure, stability_column,

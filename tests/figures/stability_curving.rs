@@ -1,8 +1,9 @@
 //! What 4.5, 4.6 and Appendix A say of stability, curving and their trade-off.
 
 use bogie::{
-    chart::{Curve, Symbol, book::CONICITIES},
+    chart::CONICITIES,
     dynamics::curving::lifting_cant_deficiency,
+    plot::{Curve, Symbol},
 };
 
 use super::{

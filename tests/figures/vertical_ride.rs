@@ -1,8 +1,6 @@
 //! What 4.3, 4.6 and the design forms of 4.7 say of vertical ride.
 
-use bogie::{
-    chart::Figure, dynamics::VerticalModel, evaluate::ride::VerticalRide, units::us::INCH,
-};
+use bogie::{dynamics::VerticalModel, evaluate::ride::VerticalRide, plot::Figure, units::us::INCH};
 
 use super::{
     at, curve, figure, lateral_ride::net, stability_column, support::assert_ratio, workbook,

@@ -4,13 +4,11 @@
 use std::sync::OnceLock;
 
 use bogie::{
-    chart::{
-        System,
-        book::{Workbook, find},
-    },
+    chart::{Workbook, find},
     design::{pareto, procedure},
     evaluate::warnings::warnings,
     optimize::archive::{Archive, Progress},
+    plot::System,
     report::{Report, page},
     spec::Spec,
 };

@@ -75,7 +75,7 @@ impl<'a> Curves<'a> {
         self.limits.as_ref().ok_or(Failure::NoCurve)
     }
 
-    /// Derivatives of the curves at which limits are met, degrees; none for one that is not met.
+    /// Derivatives of the curves at which limits are met, degrees; none for a limit that is not met.
     fn limit_gradients(&mut self, limits: &[(Limit, Option<f64>)]) -> Option<Vec<Vec<f64>>> {
         self.limits().ok()?;
         let (constants, (model, _)) = (self.constants?, self.limits.as_ref()?);
@@ -227,8 +227,8 @@ impl Curve {
         })
     }
 
-    /// Pieces of values, and of what the change of the vehicle in the curve by each constant makes of
-    /// them.
+    /// Pieces of values, with their derivatives by the change of the vehicle in the curve with each
+    /// constant, whose number comes first.
     fn graded(
         &self,
         values: &[f64],
@@ -241,8 +241,8 @@ impl Curve {
     }
 }
 
-/// Wheels (wheelset, side) that the pieces of an index sum over: each alone, those on one side of a
-/// truck, or those of an axle.
+/// Wheels (wheelset, side) over which the pieces of an index sum: each wheel alone, the wheels on one side
+/// of a truck, or the two of an axle.
 fn wheels_of(index: Index) -> Vec<Vec<(usize, usize)>> {
     match index {
         Index::WheelLOverV => (0..8).map(|n| vec![(n / 2, n % 2)]).collect(),

@@ -10,13 +10,14 @@ use std::cell::OnceCell;
 
 use crate::{
     case::Case,
-    dynamics::{EigenError, ForcedTangent, LateralModel, Poles, VerticalModel},
+    dynamics::{ForcedTangent, LateralModel, VerticalModel},
     evaluate::{
         curving::Limit,
         gradients::Constants,
         ride::{NoRide, VerticalRide},
     },
     index::{Behaviour, Index},
+    numerics::{EigenError, Poles},
     optimize::problem::{Failure, Piece},
     parameter::Parameter,
     track::MAX_DEGREE,
@@ -49,14 +50,14 @@ impl std::fmt::Display for Wanted {
     }
 }
 
-/// Measures what is wanted of a case. The index of a [`Piece`] is that of the wheelset, limit or
-/// band it comes from, see [`piece_name`].
+/// Measures the wanted indices of a case. The index of a [`Piece`] is that of its wheelset, limit or
+/// band, see [`piece_name`].
 ///
 /// # Errors
 ///
 /// [`Failure`] where the case has no such performance.
 pub fn measure(case: &Case, wanted: &[Wanted]) -> Result<Vec<Vec<Piece>>, Failure> {
-    Job::new(case, wanted, None, Purpose::Search)
+    Measurement::new(case, wanted, None, Purpose::Search)
         .run()
         .into_iter()
         .collect()
@@ -74,18 +75,18 @@ pub fn measure_graded(
     constants: &[Parameter],
 ) -> Result<Vec<Vec<Piece>>, Failure> {
     let constants = Constants::new(case, constants);
-    let job = Job::new(case, wanted, Some(&constants), Purpose::Search);
-    job.run().into_iter().collect()
+    let measurement = Measurement::new(case, wanted, Some(&constants), Purpose::Search);
+    measurement.run().into_iter().collect()
 }
 
-/// As [`measure`], for a verdict: with a result for each of what is wanted, as a case that is unstable
-/// at its speed has no lateral ride, but it has a critical speed; and without results where the model
-/// does not cover the service curve.
+/// As [`measure`], for a verdict: each index has a result of its own, because a case that is unstable at
+/// its speed has no lateral ride but a critical speed. Indices of a service curve that the model does not
+/// cover have no result.
 pub fn measure_each(case: &Case, wanted: &[Wanted]) -> Vec<Result<Vec<Piece>, Failure>> {
-    Job::new(case, wanted, None, Purpose::Verdict).run()
+    Measurement::new(case, wanted, None, Purpose::Verdict).run()
 }
 
-/// Whether a value is only an end of the range searched: of speeds for the critical speed, of curves for
+/// True if a value is only an end of the range searched: of speeds for the critical speed, of curves for
 /// the limits of curving.
 pub fn is_only_bounded(case: &Case, index: Index, value: f64) -> bool {
     let [low, high] = case.model.speed_range;
@@ -98,7 +99,7 @@ pub fn is_only_bounded(case: &Case, index: Index, value: f64) -> bool {
     }
 }
 
-/// Why an index has no pieces where its measurement did not fail.
+/// Reason why a successful measurement of an index has no pieces.
 pub fn absence(index: Index) -> Failure {
     if index.needs_service_curve() {
         Failure::NoServiceCurve
@@ -107,27 +108,27 @@ pub fn absence(index: Index) -> Failure {
     }
 }
 
-/// What a measurement is for.
+/// Purpose of a measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Purpose {
-    /// Nothing is of use unless all is there; beyond the models' limits their smooth extrapolation is.
+    /// A search: all indices or none; beyond the models' limits their smooth extrapolation.
     Search,
-    /// Each result is of use, and only what the models cover.
+    /// A verdict: every index by itself, only within the models' limits.
     Verdict,
 }
 
 type Measured = Result<Vec<Piece>, Failure>;
 
-/// A case and what is wanted of it.
-struct Job<'a> {
+/// Measurement of the wanted indices of a case.
+struct Measurement<'a> {
     case: &'a Case,
     wanted: &'a [Wanted],
-    /// By which gradients are taken, if they are.
+    /// Constants of the gradients; `None`: values only.
     constants: Option<&'a Constants>,
     purpose: Purpose,
 }
 
-impl<'a> Job<'a> {
+impl<'a> Measurement<'a> {
     fn new(
         case: &'a Case,
         wanted: &'a [Wanted],
@@ -142,7 +143,7 @@ impl<'a> Job<'a> {
         }
     }
 
-    /// The lateral model's indices beside those of the other models.
+    /// Indices of the lateral model, and indices of the other models.
     fn run(&self) -> Vec<Measured> {
         let numbered = self.wanted.iter().copied().enumerate();
         let status = OnceCell::new();
@@ -345,7 +346,7 @@ pub fn worst(index: Index, pieces: &[Piece]) -> Option<f64> {
 /// Bands kept apart by point.
 const BANDS: usize = 64;
 
-/// Name of a piece of what was wanted, to go behind the name of the index; empty if it is alone.
+/// Name of a piece, to follow the name of its index; empty for a single piece.
 pub fn piece_name(wanted: Wanted, piece: usize) -> String {
     let index = match wanted {
         Wanted::DampingTo { .. } => {

@@ -6,8 +6,7 @@ use crate::{
     evaluate::{
         gradients::Constants,
         limits::PEAK,
-        passenger_ride::PassengerRide,
-        ride::{LateralRide, VerticalRide, average},
+        ride::{LateralRide, PassengerRide, VerticalRide, average},
         stroke_in_curve::taken,
     },
     index::Index,
@@ -17,7 +16,7 @@ use crate::{
 /// A ride and its derivatives by each constant.
 pub(super) type Graded<T> = (T, Vec<T>);
 
-/// Pieces of what is made of a ride; linear in its values, so that it takes derivatives too.
+/// Pieces of a linear function of a ride, which serves for values and derivatives.
 fn made_of<T>(
     (ride, derivatives): &Graded<T>,
     graded: bool,

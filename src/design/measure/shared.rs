@@ -1,8 +1,8 @@
-//! Indices of many cases, of which some have a model in common.
+//! Indices of many cases, some of which have a model in common.
 //!
-//! A case that differs from another in nothing that its lateral model holds has the same lateral indices,
-//! and so has it with the vertical model: what one of them gave is taken for the other. Models are told
-//! apart by digests of all their numbers, so that what a model does not hold need not be known.
+//! Two cases with the same lateral model have the same lateral indices, two with the same vertical model
+//! the same vertical ones: they are measured once. Models are identified by digests of all their
+//! numbers.
 
 use std::{
     collections::HashMap,
@@ -13,7 +13,7 @@ use super::{Measured, Wanted, measure_each};
 use crate::{
     case::{Case, Model, Service},
     dynamics::{Digest, LateralModel, VerticalModel},
-    evaluate::kinematic_mode::KinematicBand,
+    evaluate::modes::KinematicBand,
     index::{Behaviour, Index},
 };
 
@@ -28,7 +28,7 @@ pub struct Shared {
     service: Service,
     model: Model,
     wanted: Vec<Wanted>,
-    /// Places, in what is wanted, of the indices that a model decides, and its results.
+    /// Positions, among the wanted indices, of a model's indices, and their results.
     lateral: (Vec<usize>, Kept),
     vertical: (Vec<usize>, Kept),
     /// Places of the others, which are measured anew for every case.
@@ -36,7 +36,7 @@ pub struct Shared {
 }
 
 impl Shared {
-    /// What is wanted of cases in the service, and with the modelling choices, of one.
+    /// For the wanted indices of cases with the service and the modelling choices of one.
     pub fn new(case: &Case, wanted: &[Wanted]) -> Self {
         let places = |of: fn(Wanted) -> bool| -> Vec<usize> {
             let wanted = wanted.iter().enumerate();
@@ -104,13 +104,13 @@ impl Shared {
     }
 }
 
-/// Whether the lateral model, with the band of kinematic motion, decides it.
+/// True if the lateral model, with the band of kinematic motion, decides it.
 fn is_lateral(wanted: Wanted) -> bool {
     let in_curve = matches!(wanted, Wanted::Index(Index::SecondaryLateralStrokeInCurve));
     wanted.is_of_lateral_model() && !in_curve
 }
 
-/// Whether the vertical model, with the static wheel load, decides it.
+/// True if the vertical model, with the static wheel load, decides it.
 fn is_vertical(wanted: Wanted) -> bool {
     matches!(wanted, Wanted::Index(index) if index.behaviour() == Behaviour::VerticalRide)
 }
@@ -127,7 +127,7 @@ fn vertical_digest(case: &Case) -> Digest {
 }
 
 fn lock(kept: &Kept) -> MutexGuard<'_, HashMap<Digest, Vec<Measured>>> {
-    // Nothing panics while it holds the lock.
+    // No code panics while it holds the lock.
     kept.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

@@ -5,14 +5,12 @@ use crate::{
     case::Case,
     dynamics::{ForcedTangent, LateralModel},
     evaluate::{
-        critical_speed::Stability,
-        damping_range::{DampingMinimum, DampingRange, Place},
         gradients::modes,
-        kinematic_mode::{KinematicBand, KinematicMode},
-        lateral_modes::LateralModes,
-        mode::{Mode, damping_ratio_change},
+        modes::{KinematicBand, KinematicMode, LateralModes, Mode},
+        stability::{DampingMinimum, DampingRange, Place, Stability},
     },
     index::Index,
+    numerics::damping_ratio_change,
     optimize::problem::{Failure, Piece},
 };
 

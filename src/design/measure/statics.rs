@@ -3,13 +3,14 @@
 use super::{Measured, Vertical, pieces};
 use crate::{
     case::Case,
-    dynamics::{Poles, VerticalModel},
+    dynamics::VerticalModel,
     evaluate::{
         checks::separations,
         gradients::five_point,
-        vertical_modes::{flexible_separations, vertical_modes},
+        modes::{Separation, flexible_separations, vertical_modes},
     },
     index::Index,
+    numerics::Poles,
     optimize::{
         follow,
         problem::{Failure, Piece},
@@ -84,7 +85,7 @@ fn flexible_modes(model: &VerticalModel, poles: &Poles) -> Result<Vec<Piece>, Fa
     if separations.is_empty() {
         return Err(Failure::NoMode);
     }
-    let piece = |s: &crate::evaluate::vertical_modes::Separation| Piece {
+    let piece = |s: &Separation| Piece {
         label: s.flexible.ln() + s.truck.ln(),
         ..Piece::single(0, s.ratio)
     };

@@ -11,7 +11,7 @@ const WIDE_GAP: f64 = 3.0;
 /// Searches between points, per point asked for.
 const TRIES: usize = 3;
 
-/// Where was searched between points.
+/// Gaps between points that were searched.
 #[derive(Debug, Default)]
 pub(super) struct Filling {
     /// Pairs of points, by badness, between which a search came to no other.
@@ -21,7 +21,7 @@ pub(super) struct Filling {
 }
 
 impl Filling {
-    /// Whether there is no place left to search at.
+    /// True if there is no place left to search at.
     pub fn is_at_end(&self) -> bool {
         self.is_at_end
     }
@@ -40,7 +40,7 @@ impl Filling {
 /// A pair of neighbouring points, by number, and their distance in shares of the front's extents.
 type Gap = (f64, [usize; 2]);
 
-/// Neighbouring points: of two indices those next to each other, of three every point and the one
+/// Pairs of neighbouring points: consecutive points of two indices; of three, every point with the point
 /// nearest to it.
 fn gaps(badness: &[Vec<f64>]) -> Vec<Gap> {
     let extents = extents(badness);

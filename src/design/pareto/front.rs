@@ -17,19 +17,19 @@ pub struct FrontPoint {
     pub values: Vec<f64>,
     /// The optimum explained, with the prices of the bounds on the other indices.
     pub explained: Explained,
-    /// Which of the wheel profiles it has.
+    /// Number of its wheel profile.
     pub(super) profile: usize,
     /// The design in scaled coordinates.
     pub(super) x: Vec<f64>,
     /// The search that led to it.
     pub(super) aim: Aim,
-    /// Whether it was searched for everywhere.
+    /// True if it was searched for everywhere.
     pub(super) is_verified: bool,
-    /// Whether its other indices are as good as they can be for next to nothing.
+    /// True if its other indices were improved at no more than a negligible loss.
     pub(super) is_spared: bool,
 }
 
-/// How bad a value is: logarithmic for indices compared by ratios, smaller is better.
+/// Cost of a value: its logarithm for indices compared by ratios; smaller is better.
 pub(super) fn badness(index: Index, value: f64) -> f64 {
     let size = match index.scale() {
         Scale::Logarithmic => value.max(f64::MIN_POSITIVE).ln(),
@@ -54,7 +54,7 @@ pub(super) fn of_badness(index: Index, badness: f64) -> f64 {
 }
 
 impl FrontPoint {
-    /// How bad it is in every index.
+    /// Cost in every index.
     pub(super) fn badness(&self, indices: &[Index]) -> Vec<f64> {
         let pairs = indices.iter().zip(&self.values);
         pairs
@@ -63,15 +63,15 @@ impl FrontPoint {
     }
 }
 
-/// Differences within this are none: what convergence leaves of a relative value.
-const SAME: f64 = 1e-6;
+/// Relative difference that counts as zero: the accuracy of convergence.
+const EQUAL_VALUES: f64 = 1e-6;
 /// Points that differ by no more than this in any index show the same twice: 0.1 %.
 const REPEATED: f64 = 1e-3;
 
-/// Whether `a` is as good as `b` in every index, and better in some.
+/// True if `a` is as good as `b` in every index, and better in some.
 pub(super) fn dominates(a: &[f64], b: &[f64]) -> bool {
     let pairs = || a.iter().zip(b);
-    pairs().all(|(a, b)| *a <= b + SAME) && pairs().any(|(a, b)| *a < b - SAME)
+    pairs().all(|(a, b)| *a <= b + EQUAL_VALUES) && pairs().any(|(a, b)| *a < b - EQUAL_VALUES)
 }
 
 /// Removes points that others dominate or repeat. Returns how many were dominated.
@@ -97,8 +97,8 @@ pub(super) fn clean(points: &mut Vec<FrontPoint>, indices: &[Index]) -> usize {
 /// percent.
 const DEAREST: f64 = 20.0;
 
-/// Removes points that are not properly efficient (Geoffrion 1968): beside some other point they
-/// give more than [`DEAREST`] times of one index what they gain in any. Returns how many. No chain of
+/// Removes points that are not properly efficient (Geoffrion 1968): against some other point their loss
+/// in one index is more than [`DEAREST`] times their gain in any. Returns how many. No chain of
 /// such points closes, as gains add up along it, so the best of each chain stays.
 pub(super) fn bargains(points: &mut Vec<FrontPoint>, indices: &[Index]) -> usize {
     let badness: Vec<Vec<f64>> = points.iter().map(|p| p.badness(indices)).collect();
@@ -127,7 +127,7 @@ pub(super) fn converged(points: &mut Vec<FrontPoint>, indices: &[Index]) {
     points.retain(|p| ends.next().unwrap_or(false) || is_optimum(p));
 }
 
-/// Whether no point is better in some index.
+/// True if no point is better in some index.
 fn is_end(badness: &[Vec<f64>], i: usize) -> bool {
     let indices = 0..badness[i].len();
     indices

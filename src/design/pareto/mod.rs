@@ -1,11 +1,10 @@
 //! Pareto fronts between two or three indices by the ε-constraint method (Haimes, Lasdon, Wismer
-//! 1971): one index is made as good as can be while the others keep a bound, and the bounds sweep
-//! the front.
+//! 1971): one index is optimised while the others keep a bound, and the bounds sweep the front.
 //!
 //! The front is first *traced* from its ends, each point from its neighbours' designs and from the
 //! basins seen so far; then, in turn, *filled* where neighbouring points are far apart and
-//! *verified*: every point that is to stay is searched for everywhere, and what turns out better
-//! takes its place and is tried at the others.
+//! *verified*: every remaining point is searched for globally, and a better point replaces it and is
+//! tried at the others.
 //!
 //! Requirements and limits on the indices traded off are left out: the front shows them, and ends
 //! where `[pareto.bounds]` says.
@@ -38,7 +37,7 @@ use tracer::{Pool, Tracer};
 /// A front.
 #[derive(Debug, Clone)]
 pub struct Front {
-    /// What is traded off, in the order asked for.
+    /// Indices traded off, in the order asked for.
     pub indices: Vec<Index>,
     /// The parameters that vary, the conicity among them where it is chosen from profiles.
     pub parameters: Vec<Parameter>,
@@ -46,21 +45,21 @@ pub struct Front {
     pub points: Vec<FrontPoint>,
     /// Points asked for.
     pub asked: usize,
-    /// Why there are fewer, or wider gaps between them; `None` if there are not.
+    /// Reason for fewer points or wider gaps than asked for.
     pub sparse: Option<Sparse>,
     /// Points found but dominated by others.
     pub dominated: usize,
-    /// Why there is no point, where no design could be evaluated.
+    /// Reason why there is no point: no design could be evaluated.
     pub failure: Option<Failure>,
-    /// Why the run ended early, if it did.
+    /// Reason for an early end of the run.
     pub stopped: Option<Stop>,
     /// Full-model evaluations.
     pub evaluations: usize,
-    /// Of which without a result, by reason.
+    /// Number of them without values, by reason.
     pub failures: BTreeMap<Failure, usize>,
 }
 
-/// Where a front has fewer points than asked for, or gaps.
+/// Shortcoming of a front: fewer points than asked for, or gaps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sparse {
     /// Places between neighbouring points at which a search came to no other point: the front jumps
@@ -123,7 +122,7 @@ pub fn pareto(spec: &Spec, archive: &Archive) -> Front {
     }
 }
 
-/// One for every wheel profile to choose from.
+/// A tracer for every wheel profile to choose from.
 fn tracers<'a>(spec: &'a Spec, archive: &'a Archive<'a>) -> Vec<Tracer<'a>> {
     let tasks = Tasks::new(spec);
     let profiles = tasks.profiles(&spec.case);
@@ -194,7 +193,7 @@ fn trace(tracers: &[Tracer], asked: usize) -> (Vec<FrontPoint>, Option<Failure>)
     (points, failure)
 }
 
-/// Makes the other indices of every point as good as they can be for next to nothing.
+/// Improves the other indices of every point at no more than a negligible loss.
 fn spare(tracers: &[Tracer], points: &mut [FrontPoint]) {
     for point in points.iter_mut().filter(|point| !point.is_spared) {
         tracers[point.profile].spare(point);

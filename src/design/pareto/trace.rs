@@ -22,11 +22,11 @@ fn kept(indices: &[Index]) -> Index {
 }
 
 impl Tracer<'_> {
-    /// The front between `indices` where `bounds` on others are kept.
+    /// Front between `indices`, with `bounds` on others kept.
     ///
     /// # Errors
     ///
-    /// [`NoDesign`] if not one design could be evaluated.
+    /// [`NoDesign`] if no design could be evaluated.
     pub fn front(
         &self,
         indices: &[Index],
@@ -65,7 +65,7 @@ impl Tracer<'_> {
                 if self.archive.stopped().is_some() {
                     break;
                 }
-                // A slice without a design adds nothing.
+                // A slice without a design adds no points.
                 if let Ok(slice) = self.front(&rest, &bounds, wanted.div_ceil(slices)) {
                     points.extend(slice);
                 }
@@ -97,7 +97,7 @@ impl Tracer<'_> {
             let alone = match alone {
                 Ok(Some(alone)) => alone,
                 Ok(None) => continue,
-                // What is done stays.
+                // Finished points stay.
                 Err(NoDesign::Stopped(_)) => break,
                 Err(reason) => return Err(reason),
             };
@@ -120,7 +120,7 @@ impl Tracer<'_> {
                     found = true;
                 }
             }
-            // Among the designs that reach the best, those best in the others stand for it.
+            // Of the designs with the best value, the best in the other indices is taken.
             if !found {
                 points.push(alone);
             }
@@ -145,7 +145,7 @@ impl Tracer<'_> {
         self.follow(&Aim { objective, bounds }, near)
     }
 
-    /// Searches again where another point's design is better than what was found.
+    /// Searches again from another point's design where that is better.
     fn mend(&self, points: &mut [FrontPoint]) {
         for i in 0..points.len() {
             let badness = points[i].badness(self.indices);

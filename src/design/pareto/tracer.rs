@@ -30,17 +30,17 @@ pub(super) type Bounds = Vec<(Index, f64)>;
 /// A search for the best of one index within bounds on others.
 #[derive(Debug, Clone)]
 pub(super) struct Aim {
-    /// What is made as good as can be.
+    /// Index optimised.
     pub objective: Index,
-    /// What is asked of the others.
+    /// Bounds on the others.
     pub bounds: Bounds,
 }
 
 /// The search for points of one profile.
 pub(super) struct Tracer<'a> {
-    /// Which of the wheel profiles.
+    /// Number of the wheel profile.
     pub profile: usize,
-    /// Parameters and demands, without those on the indices traded off.
+    /// Parameters, and demands on indices that are not traded off.
     pub study: Study,
     pub conditions: &'a [Condition],
     pub indices: &'a [Index],
@@ -74,7 +74,7 @@ impl Pool {
         }
     }
 
-    /// Designs and, behind them, those of the pool that are not near any of them.
+    /// Designs followed by the designs of the pool that are not near any of them.
     fn with_others(&self, mut designs: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         let pool = self.0.borrow();
         let is_other = |x: &&Vec<f64>| !designs.iter().any(|known| is_near(known, x));
@@ -89,8 +89,8 @@ fn is_near(a: &[f64], b: &[f64]) -> bool {
 }
 
 impl Tracer<'_> {
-    /// The best point of an aim, from designs `near` it and from those of all basins seen. `None` if no
-    /// design found keeps the bounds, or the run ended before.
+    /// The best point of an aim, from designs `near` it and from the designs of all basins seen. `None` if
+    /// no design found keeps the bounds, or the run ended before.
     pub fn follow(&self, aim: &Aim, near: Vec<Vec<f64>>) -> Option<FrontPoint> {
         self.beside(aim, self.pool.with_others(near))
     }
@@ -108,7 +108,7 @@ impl Tracer<'_> {
     ///
     /// # Errors
     ///
-    /// [`NoDesign`] if not one design could be evaluated.
+    /// [`NoDesign`] if no design could be evaluated.
     pub fn everywhere(
         &self,
         aim: &Aim,
@@ -118,18 +118,18 @@ impl Tracer<'_> {
         self.solve(aim, &start.with(self.pool.with_others(near)))
     }
 
-    /// As [`Tracer::everywhere`], from uniform points and the basins seen: far ends of a point's variables
-    /// are what its neighbours' basins show.
+    /// As [`Tracer::everywhere`], from uniform points and the basins seen, without far ends: the
+    /// neighbours' basins take their place.
     ///
     /// # Errors
     ///
-    /// [`NoDesign`] if not one design could be evaluated.
+    /// [`NoDesign`] if no design could be evaluated.
     pub fn verify(&self, aim: &Aim, near: Vec<Vec<f64>>) -> Result<Option<FrontPoint>, NoDesign> {
         let start = self.everywhere.clone().plainly();
         self.solve(aim, &start.with(self.pool.with_others(near)))
     }
 
-    /// One point; `None` if no design found keeps the bounds, or the run ended before it converged.
+    /// Point of an aim; `None` if no design found keeps the bounds, or the run ended before it converged.
     pub fn solve(&self, aim: &Aim, start: &Start) -> Result<Option<FrontPoint>, NoDesign> {
         let mut study = self.study.clone();
         for condition in 0..study.conditions() {
@@ -177,8 +177,8 @@ impl Tracer<'_> {
         }))
     }
 
-    /// Makes the other indices of a point as good as they can be for next to nothing: where the bound
-    /// on one of three is not active, the search for the best of another leaves it anywhere.
+    /// Improves the other indices of a point at no more than a negligible loss: the search does not
+    /// determine an index whose bound is not active.
     pub fn spare(&self, point: &mut FrontPoint) {
         let objective = point.aim.objective;
         for other in self.indices.iter().filter(|i| **i != objective) {

@@ -34,7 +34,7 @@ fn verified(tracers: &[Tracer], points: &mut [FrontPoint], i: usize) -> Option<b
         return None;
     }
     let Ok(Some(found)) = found else {
-        // Nothing else keeps the bounds: the point itself does within the tolerance of the searches.
+        // No other design keeps the bounds; the point itself does within the tolerance of the searches.
         points[i].is_verified = true;
         return Some(false);
     };

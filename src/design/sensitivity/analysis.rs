@@ -17,7 +17,7 @@ use crate::{
     spec::{DesignSpace, Spec},
 };
 
-/// How sensitivity is found, and from how much.
+/// Method of the sensitivity analysis, with its sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
     /// Shares of variance, see [`sobol`].
@@ -36,7 +36,7 @@ impl Method {
     /// Sobol' indices from 256 rows: among 50 factors total indices are then good to about ± 0.1
     /// where they are large and ± 0.01 where they are small.
     pub const SOBOL: Self = Self::Sobol { rows: 256 };
-    /// Screening with 20 trajectories: twice what is commonly held to be the least.
+    /// Screening with 20 trajectories: twice the usual least number.
     pub const MORRIS: Self = Self::Morris { trajectories: 20 };
 
     /// Evaluations that it takes with a number of factors.
@@ -61,10 +61,10 @@ impl Method {
     }
 }
 
-/// How an analysis is run.
+/// Settings of an analysis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings {
-    /// How sensitivity is found.
+    /// Method.
     pub method: Method,
     /// Seed: the same gives the same bits.
     pub seed: u64,
@@ -73,15 +73,15 @@ pub struct Settings {
 /// Sensitivity of several indices to the same factors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensitivity {
-    /// What was asked for.
+    /// Settings.
     pub settings: Settings,
-    /// What varied.
+    /// Factors.
     pub factors: Vec<Factor>,
-    /// Relative spread of those factors that are inputs.
+    /// Relative spread of the factors that are inputs.
     pub spread: f64,
-    /// By index.
+    /// Results by index.
     pub indices: Vec<IndexSensitivity>,
-    /// Whole rows or trajectories evaluated: fewer than asked for if the run was interrupted.
+    /// Number of whole rows or trajectories evaluated: fewer than asked for if the run was interrupted.
     pub groups: usize,
 }
 
@@ -146,12 +146,12 @@ impl Sensitivity {
         self.groups * self.settings.method.group(self.factors.len())
     }
 
-    /// Whether there is less than what was asked for.
+    /// True if the run ended before all evaluations.
     pub fn interrupted(&self) -> bool {
         self.groups < self.settings.method.groups()
     }
 
-    /// Factors that matter to none of the indices.
+    /// Factors without influence on any index.
     pub fn negligible(&self) -> Vec<usize> {
         let rankings: Vec<Ranking> = self.indices.iter().map(|i| i.ranking()).collect();
         (0..self.factors.len())
@@ -176,7 +176,7 @@ impl IndexSensitivity {
     }
 }
 
-/// Indices to look at if nothing else is said: the report's own, and those that the spec asks for.
+/// Default indices: the report's own and the indices with a demand.
 pub fn indices_of(spec: &Spec) -> Vec<Index> {
     const REPORT: [Index; 6] = [
         Index::CriticalSpeed,
@@ -195,15 +195,15 @@ pub fn indices_of(spec: &Spec) -> Vec<Index> {
         .collect()
 }
 
-/// Screens all inputs of a finished design within ± 10 %, with 10 trajectories: enough to tell what
-/// matters from what does not.
+/// Screens all inputs of a finished design within ± 10 %, with 10 trajectories: enough to separate
+/// influential inputs from others.
 pub fn screen(design: &Case, indices: &[Index], seed: u64, watch: &Watch) -> Sensitivity {
     let factors = Factors::new(design, &DesignSpace::default(), 0.1);
     let method = Method::Morris { trajectories: 10 };
     Sensitivity::new(&factors, indices, Settings { method, seed }, watch)
 }
 
-/// Indices of a case, on the scale on which they are compared, from what was measured of them.
+/// Indices of a case, on the scale on which they are compared, from their measurements.
 fn outcomes(
     case: &Case,
     indices: &[Index],

@@ -10,7 +10,7 @@ use super::{
 /// Levels in common use (Campolongo et al. 2007): the bounds, and two between them.
 pub const LEVELS: usize = 4;
 
-/// How much is sampled.
+/// Size of the sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings {
     /// r, trajectories: each takes one evaluation more than there are factors.
@@ -64,9 +64,9 @@ impl Effect {
 /// A screening.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Screening {
-    /// By output.
+    /// Effects by output.
     pub outputs: Vec<Output<Effect>>,
-    /// Whole trajectories evaluated.
+    /// Number of whole trajectories evaluated.
     pub trajectories: usize,
 }
 
@@ -138,11 +138,11 @@ fn step(levels: usize) -> f64 {
     levels as f64 / (2.0 * (levels - 1) as f64)
 }
 
-/// One way through the grid.
+/// A trajectory through the grid.
 struct Trajectory {
     /// Level of every factor at the lower end of its step: below p/2.
     lower: Vec<usize>,
-    /// Whether the step goes up.
+    /// True if the step goes up.
     up: Vec<bool>,
     /// In which order the factors move.
     order: Vec<usize>,

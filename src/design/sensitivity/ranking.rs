@@ -1,4 +1,4 @@
-//! Which factors matter to an index, and which do not.
+//! Ranking of the factors by their influence on an index.
 
 use super::{morris, sobol};
 
@@ -14,11 +14,11 @@ pub enum Effects {
 /// Factors by importance to an index: numbers in the list of factors.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ranking {
-    /// Those that matter, the most important first.
+    /// Influential factors, the most important first.
     pub matters: Vec<usize>,
-    /// Those that do not: together they explain less than [`NEGLIGIBLE`].
+    /// Negligible factors: together they explain less than [`NEGLIGIBLE`].
     pub negligible: Vec<usize>,
-    /// Those of which nothing is known because too many evaluations failed.
+    /// Unknown factors, because too many evaluations failed.
     pub unknown: Vec<usize>,
 }
 
@@ -30,7 +30,7 @@ impl Effects {
     /// as the sum of their total indices, which is no less than their total index as a group, or
     /// their share in the mean squares of all effects, is below [`NEGLIGIBLE`].
     pub fn ranking(&self) -> Ranking {
-        // By factor: by what it ranks, and what it explains.
+        // By factor: measure of its rank, and share that it explains.
         let known: Vec<Option<(f64, f64)>> = match self {
             Self::Sobol(effects) => effects
                 .iter()

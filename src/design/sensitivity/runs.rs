@@ -27,7 +27,7 @@ pub struct Output<E> {
     pub effects: Vec<Option<E>>,
 }
 
-/// Who watches a run, and who may end it.
+/// Observer and interrupt of a run.
 #[derive(Clone, Copy)]
 pub struct Watch<'a> {
     /// Ends the run when set.

@@ -23,7 +23,7 @@ const RESAMPLES: usize = 1000;
 /// does not vary.
 const CONSTANT: f64 = 1e-9;
 
-/// How much is sampled.
+/// Size of the sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings {
     /// N, rows of the sample: each takes two evaluations more than there are factors. Powers of
@@ -45,32 +45,31 @@ pub struct Estimate {
 /// Sensitivity of one output to one factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effect {
-    /// S_i. The error of the estimate does not shrink with the index, so that it may come out
-    /// below 0: what matters little is judged by S_Ti.
+    /// S_i. The error of the estimate does not shrink with the index, so that it may come out below 0;
+    /// small influences are judged by S_Ti.
     pub first: Estimate,
     /// S_Ti.
     pub total: Estimate,
-    /// Rows that remain: those in which A, B and AB_i could all be evaluated.
+    /// Number of rows in which A, B and AB_i could all be evaluated.
     pub rows: usize,
 }
 
 /// A variance decomposition.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decomposition {
-    /// By output.
+    /// Indices by output.
     pub outputs: Vec<Output<Effect>>,
-    /// Whole rows evaluated.
+    /// Number of whole rows evaluated.
     pub rows: usize,
 }
 
 /// First-order and total indices of every factor for `outputs` outputs of a function on the unit
 /// cube, with the sample of Saltelli et al. (2010): matrices A and B from the two halves of the
-/// coordinates of one sequence, and AB_i, which is A with column i from B. Moments are those over A
+/// coordinates of one sequence, and AB_i, which is A with column i from B. Moments are taken over A
 /// and B.
 ///
-/// Rows in which the function fails at A, B or AB_i are left out for factor i. What remains no
-/// longer fills the cube evenly: with many failures the indices are those of the designs that
-/// remain, and approximate.
+/// Rows in which the function fails at A, B or AB_i are left out for factor i. The remaining rows do not
+/// fill the cube evenly: with many failures the indices are approximate.
 ///
 /// # Panics
 ///
@@ -147,7 +146,7 @@ where
     }
 }
 
-/// One row as far as one factor is concerned.
+/// A row for one factor.
 #[derive(Clone, Copy)]
 struct Row {
     a: f64,
@@ -207,8 +206,8 @@ fn indices(rows: &[(usize, Row)], counts: &[u32]) -> Option<[f64; 2]> {
     Some([first / (n * variance), total / (2.0 * n * variance)])
 }
 
-/// How often each row is drawn in a resample of the bootstrap (Efron 1979). Rows are taken as
-/// independent, which those of a sequence are not: the intervals are rather too wide.
+/// Multiplicity of each row in a resample of the bootstrap (Efron 1979). Rows of a sequence are not
+/// independent, as the bootstrap assumes: the intervals are rather too wide.
 fn resample(rows: usize, seed: u64, number: usize) -> Vec<u32> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(1 + number as u64);
@@ -219,7 +218,7 @@ fn resample(rows: usize, seed: u64, number: usize) -> Vec<u32> {
     counts
 }
 
-/// Percentiles 2.5 and 97.5; the value itself where nothing could be resampled.
+/// Percentiles 2.5 and 97.5; the value itself without a valid resample.
 fn middle(mut values: Vec<f64>, value: f64) -> [f64; 2] {
     if values.is_empty() {
         return [value; 2];

@@ -11,7 +11,7 @@ pub(super) struct Chain {
     by_parameters: Vec<Vec<f64>>,
     /// Number of parameters.
     count: usize,
-    /// Derivative of the lifted speed by its own coordinate, if there is one, m/s.
+    /// Derivative of the epigraph speed by its own coordinate, if there is one, m/s.
     speed: Option<f64>,
 }
 
@@ -62,7 +62,7 @@ impl Chain {
             .zip(by_parameters)
             .filter(|(_, by)| by.iter().any(|slope| *slope != 0.0))
             .unzip();
-        let speed = study.is_lifted.then(|| {
+        let speed = study.has_epigraph.then(|| {
             let variable = &study.variables[count];
             variable.slope(variable.value(x[count]))
         });
@@ -75,8 +75,8 @@ impl Chain {
     }
 
     /// Gradient over the variables of what has such derivatives by the numbers, and behind them
-    /// perhaps one by a speed, which is the lifted one or is not.
-    pub fn gradient(&self, derivatives: &[f64], is_lifted: bool) -> Vec<f64> {
+    /// perhaps one by a speed, which counts in an epigraph study.
+    pub fn gradient(&self, derivatives: &[f64], has_epigraph: bool) -> Vec<f64> {
         let mut gradient = vec![0.0; self.count];
         for (derivative, by) in derivatives.iter().zip(&self.by_parameters) {
             for (sum, slope) in gradient.iter_mut().zip(by) {
@@ -84,13 +84,15 @@ impl Chain {
             }
         }
         if let Some(slope) = self.speed {
-            let by_speed = derivatives.get(self.constants.len()).filter(|_| is_lifted);
+            let by_speed = derivatives
+                .get(self.constants.len())
+                .filter(|_| has_epigraph);
             gradient.push(by_speed.map_or(0.0, |derivative| derivative * slope));
         }
         gradient
     }
 
-    /// Gradient of the lifted speed itself.
+    /// Gradient of the epigraph speed itself.
     pub fn of_speed(&self) -> Vec<f64> {
         let mut gradient = vec![0.0; self.count];
         gradient.extend(self.speed);

@@ -17,10 +17,10 @@ impl Study {
     ///
     /// The critical speed jumps where an instability is born within the range; the damping over
     /// the range does not. `None` if the critical speed is no objective.
-    pub fn lifted(&self) -> Option<Self> {
+    pub fn with_epigraph(&self) -> Option<Self> {
         self.terms.iter().find(|t| t.is_speed_objective())?;
         let mut study = self.clone();
-        study.is_lifted = true;
+        study.has_epigraph = true;
         study.variables.push(Variable {
             name: "critical speed",
             symbol: "V_cr",
@@ -31,27 +31,27 @@ impl Study {
         Some(study)
     }
 
-    /// Whether the index of a term is the lifted speed.
-    pub fn is_lifted_term(&self, term: usize) -> bool {
-        self.is_lifted && self.terms[term].is_speed_objective()
+    /// Whether the index of a term is the epigraph speed.
+    pub fn is_epigraph_term(&self, term: usize) -> bool {
+        self.has_epigraph && self.terms[term].is_speed_objective()
     }
 
-    /// The study without the epigraph variable of [`Study::lifted`].
+    /// The study without the epigraph variable of [`Study::with_epigraph`].
     #[must_use]
-    pub fn grounded(&self) -> Self {
+    pub fn without_epigraph(&self) -> Self {
         let mut study = self.clone();
-        study.is_lifted = false;
+        study.has_epigraph = false;
         study.variables.truncate(study.parameters.len());
         study
     }
 
-    /// Scaled coordinates of the lifted study for a design of this one: a critical speed a little
+    /// Scaled coordinates of the epigraph study for a design of this one: a critical speed a little
     /// below what it has.
     ///
     /// # Errors
     ///
     /// [`Failure`] as of any measurement.
-    pub fn lift(&self, x: &[f64]) -> Result<Vec<f64>, Failure> {
+    pub fn epigraph_start(&self, x: &[f64]) -> Result<Vec<f64>, Failure> {
         const BELOW: f64 = 1.0 - 1e-4;
         let case = self.design(x);
         let mut least = self.base.model.speed_range[1];
@@ -61,14 +61,14 @@ impl Study {
             least = pieces.iter().map(|p| p.value).fold(least, f64::min);
         }
         let [low, high] = self.base.model.speed_range;
-        let mut lifted = x[..self.parameters.len()].to_vec();
-        lifted.push(((BELOW * least / low).ln() / (high / low).ln()).clamp(0.0, 1.0));
-        Ok(lifted)
+        let mut start = x[..self.parameters.len()].to_vec();
+        start.push(((BELOW * least / low).ln() / (high / low).ln()).clamp(0.0, 1.0));
+        Ok(start)
     }
 
-    /// The lifted speed at scaled coordinates `x`, m/s.
+    /// The epigraph speed at scaled coordinates `x`, m/s.
     pub(super) fn speed(&self, x: &[f64]) -> Option<f64> {
         let at = self.parameters.len();
-        self.is_lifted.then(|| self.variables[at].value(x[at]))
+        self.has_epigraph.then(|| self.variables[at].value(x[at]))
     }
 }

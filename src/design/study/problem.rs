@@ -75,16 +75,16 @@ impl Study {
         };
         let mut measured = Vec::new();
         for (i, pieces) in terms.iter().zip(all) {
-            let is_lifted = self.is_lifted && self.terms[*i].is_speed_objective();
+            let has_epigraph = self.has_epigraph && self.terms[*i].is_speed_objective();
             measured.extend(pieces.into_iter().map(|p| {
                 let gradient = p.gradient.as_ref().zip(chain.as_ref());
                 Piece {
                     index: i * PIECES + p.index,
-                    gradient: gradient.map(|(over, chain)| chain.gradient(over, is_lifted)),
+                    gradient: gradient.map(|(over, chain)| chain.gradient(over, has_epigraph)),
                     ..p
                 }
             }));
-            if let Some(speed) = self.speed(x).filter(|_| is_lifted) {
+            if let Some(speed) = self.speed(x).filter(|_| has_epigraph) {
                 measured.push(Piece {
                     gradient: chain.as_ref().map(Chain::of_speed),
                     ..Piece::single(i * PIECES + SPEED, speed)
@@ -111,7 +111,7 @@ impl Problem for Study {
 
     fn key(&self, x: &[f64]) -> Key {
         let terms = self.terms.iter();
-        let lifted = if self.is_lifted { "lifted " } else { "" };
+        let lifted = if self.has_epigraph { "lifted " } else { "" };
         let what: Vec<String> = terms
             .map(|t| match self.condition_name(t.condition) {
                 Some(name) => format!("{}/{name}", t.wanted),
@@ -165,7 +165,7 @@ impl Problem for Study {
                 continue;
             }
             let damping =
-                self.is_lifted && term.is_speed_objective() && piece.index % PIECES != SPEED;
+                self.has_epigraph && term.is_speed_objective() && piece.index % PIECES != SPEED;
             let (value, slope) = if damping {
                 (FEASIBLE - DAMPING * piece.value, -DAMPING)
             } else {

@@ -133,7 +133,7 @@ impl LateralModel {
         };
         let truck = |j: usize| {
             let part: Vec<usize> = ends.iter().map(|pair| pair[j]).collect();
-            let held = parts::held(&self.forced.system, speed, &part);
+            let held = parts::part_at(&self.forced.system, speed, &part);
             (part, held)
         };
         (0..count).map(truck).collect()

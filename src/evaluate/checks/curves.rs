@@ -20,7 +20,7 @@ use crate::{
 
 /// A curve and the vehicle in it.
 struct Judged {
-    /// Which curve, in words.
+    /// Name of the curve.
     place: String,
     /// The vehicle; its status where the model does not cover it.
     state: Result<CurvingState, CurveStatus>,

@@ -4,7 +4,10 @@ use super::CrossCheck;
 use crate::{
     case::Case,
     closed_form::natural_frequencies::{self as natural, Oscillator},
-    evaluate::{Evaluation, lateral_modes::LateralShape, vertical_modes::VerticalShape},
+    evaluate::{
+        Evaluation,
+        modes::{LateralShape, VerticalShape},
+    },
     units::Quantity,
     vehicle::Vehicle,
 };

@@ -4,7 +4,7 @@ use super::CrossCheck;
 use crate::{
     case::Case,
     closed_form::{corrections, kinematic},
-    evaluate::{Evaluation, critical_speed::Stability},
+    evaluate::{Evaluation, stability::Stability},
     units::{
         Quantity,
         us::{FOOT, LBF},

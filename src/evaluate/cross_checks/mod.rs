@@ -10,7 +10,7 @@ use crate::{case::Case, units::Quantity};
 /// A closed form beside the full model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CrossCheck {
-    /// What it is.
+    /// Name.
     pub name: String,
     /// Number of the equation in the report.
     pub equation: &'static str,

@@ -15,9 +15,9 @@ pub struct ServiceCurve {
     pub degree: f64,
     /// φ_d, rad.
     pub cant_deficiency: f64,
-    /// Whether the service gives the curve.
+    /// True if the service gives the curve.
     pub is_given: bool,
-    /// Whether the model covers it.
+    /// True if the model covers it.
     pub status: CurveStatus,
     /// The vehicle there; `None` where a wheel is lifted.
     pub state: Option<CurvingState>,

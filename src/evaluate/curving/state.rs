@@ -35,14 +35,14 @@ pub struct CurvingState {
     pub secondary_lateral_stroke: [f64; 2],
     /// Torque of the secondary yaw element on each truck, N m.
     pub secondary_yaw_torque: [f64; 2],
-    /// Whether it is stuck or slips.
+    /// True if it is stuck or slips.
     pub breakaway: [Breakaway; 2],
     /// Forces on the wheels, [outer, inner] of wheelsets 1–4.
     pub wheels: [[WheelForces; 2]; 4],
     /// Ratios to the limits, in the order of [`Limit::ALL`]: |y_w| over the flange clearance, and
     /// the share of μN that a wheel uses.
     pub limit_ratios: [f64; 12],
-    /// Whether the linear model covers this curve. Where it does not, forces and strokes are its
+    /// True if the linear model covers this curve. Where it does not, forces and strokes are its
     /// extrapolation, of use to a search only.
     pub status: CurveStatus,
 }

@@ -1,12 +1,12 @@
-//! Whether the linear model covers a curve.
+//! Coverage of a curve by the linear model.
 
 use super::{Limit, first_exceedance};
 use crate::{
     dynamics::curving::{CurvingError, CurvingModel, Side},
-    index::MET,
+    evaluate::limits::MET,
 };
 
-/// Whether the linear steady-curving model covers a curve. It ends at flange contact and at slip,
+/// Coverage of a curve by the linear steady-curving model. The model ends at flange contact and at slip,
 /// and needs load on every wheel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CurveStatus {
@@ -14,7 +14,7 @@ pub enum CurveStatus {
     WithinModel,
     /// A limit is exceeded: forces and strokes are an extrapolation.
     OutsideModel {
-        /// Of the limits exceeded, the one first met as the curve tightens at this cant deficiency.
+        /// Exceeded limit that is met first as the curve tightens at this cant deficiency.
         limit: Limit,
         /// Its ratio in this curve: |y_w| over the flange clearance, or the share of μN used.
         ratio: f64,

@@ -3,8 +3,9 @@
 use nalgebra::Complex;
 
 use crate::{
-    dynamics::{ForcedTangent, LinearSystem},
-    evaluate::{critical_speed::Crossing, mode::Mode},
+    dynamics::ForcedTangent,
+    evaluate::{modes::Mode, stability::Crossing},
+    numerics::LinearSystem,
 };
 
 /// wᴴ D′ v with D′ = 2 s M + C(V).

@@ -5,13 +5,12 @@ use crate::{
     case::Case,
     dynamics::curving::Side,
     evaluate::curving::{CurveStatus, CurvingLimits, CurvingState, LimitedCurve},
-    export::{
-        evaluation_text::title,
-        number::{both, significant},
-        sheet::Sheet,
-    },
+    export::{evaluation_text::title, sheet::Sheet},
     track::{SUPERELEVATION_BASE, curvature_of_degree, fra_speed_limit},
-    units::Quantity,
+    units::{
+        Quantity,
+        number::{both, significant},
+    },
 };
 
 impl Curving {

@@ -4,11 +4,9 @@ use crate::{
     design::sensitivity::{
         Effects, Factor, IndexSensitivity, Method, Sensitivity, sobol::Estimate,
     },
-    export::{
-        number::{both, significant},
-        sheet::Sheet,
-    },
+    export::sheet::Sheet,
     index::Scale,
+    units::number::{both, significant},
 };
 
 /// As text: for each index the factors ranked, then those that do not matter.

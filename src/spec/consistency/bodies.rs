@@ -34,7 +34,7 @@ impl Gyration {
 
 /// I_z ≤ I_x + I_y for any body whatever; published inertias are rounded, and a frame's are often
 /// summed from parts.
-const ROUNDING: f64 = 1.05;
+const INERTIA_SLACK: f64 = 1.05;
 
 const LONG: &str = "a uniform body has 0.29 of its length, one spread over the middle 70 % 0.2, \
                     one gathered over the trucks 0.35";
@@ -174,7 +174,7 @@ fn other_two(situation: &Situation, body: &[Gyration; 3], doubts: &mut Doubts) {
     let sum: f64 = body.iter().map(|gyration| gyration.inertia).sum();
     let [first, second, third] = body.each_ref().map(|gyration| gyration.paths[0]);
     for Gyration { paths, inertia, .. } in body {
-        if *inertia > ROUNDING * (sum - inertia)
+        if *inertia > INERTIA_SLACK * (sum - inertia)
             && let Some(place) = place(situation, &[paths[0], first, second, third])
         {
             let suffix = situation.suffix();

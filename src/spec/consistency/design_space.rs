@@ -11,10 +11,10 @@ use crate::spec::{Freedom, Spec};
 /// Widest ratio of bounds: four decades of stiffness reach from rubber to solid steel.
 const WIDEST: f64 = 1e4;
 /// Share by which the present value may miss its bounds: published constants are rounded.
-const ROUNDING: f64 = 0.1;
+const PUBLISHED_ROUNDING: f64 = 0.1;
 
 /// Relative difference between a value and the same value in another unit.
-const SAME: f64 = 1e-6;
+const SAME_VALUE: f64 = 1e-6;
 
 /// Doubts about bounds and values.
 pub fn odd_freedoms(spec: &Spec, document: &Document, doubts: &mut Vec<Diagnostic>) {
@@ -46,7 +46,8 @@ pub fn odd_freedoms(spec: &Spec, document: &Document, doubts: &mut Vec<Diagnosti
         }
         let now = parameter.get(&spec.case);
         let given = document.get(parameter.key_of_constant().path);
-        let inside = bounds.lower * (1.0 - ROUNDING)..=bounds.upper * (1.0 + ROUNDING);
+        let inside =
+            bounds.lower * (1.0 - PUBLISHED_ROUNDING)..=bounds.upper * (1.0 + PUBLISHED_ROUNDING);
         if given.is_some() && !inside.contains(&now) {
             doubts.push(
                 Diagnostic::at(
@@ -74,7 +75,7 @@ fn second_value(
 ) {
     let key = parameter.key_of_constant();
     let given = parameter.get(&spec.case);
-    if document.get(key.path).is_some() && (given / fixed - 1.0).abs() > SAME {
+    if document.get(key.path).is_some() && (given / fixed - 1.0).abs() > SAME_VALUE {
         let [fixed, given] = [fixed, given].map(|si| shown(si, parameter.quantity()));
         doubts.push(
             Diagnostic::at(

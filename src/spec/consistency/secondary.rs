@@ -8,7 +8,7 @@ use crate::spec::diagnostic::Diagnostic;
 use crate::units::Quantity;
 
 /// Share by which K_sz may differ from the static stiffness of the air spring beside it.
-const ROUNDING: f64 = 0.1;
+const STIFFNESS_DIFFERENCE: f64 = 0.1;
 
 /// Doubts about springs and dampers that the design does not choose.
 pub fn odd_secondary(situation: &Situation, design: &DesignSpace, doubts: &mut Vec<Diagnostic>) {
@@ -62,7 +62,7 @@ pub fn two_vertical_springs(situation: &Situation, doubts: &mut Vec<Diagnostic>)
         "suspension.secondary.air_spring.series_stiffness",
         "suspension.secondary.air_spring.reservoir_stiffness",
     ];
-    if (k_sz / air - 1.0).abs() > ROUNDING
+    if (k_sz / air - 1.0).abs() > STIFFNESS_DIFFERENCE
         && let Some(place) = situation.place(&paths)
     {
         let carries = air > 0.0;

@@ -1,0 +1,5 @@
+//! The plain method: a dense pivoted factorisation, one frequency at a time.
+
+mod densities;
+
+pub use densities::densities;
