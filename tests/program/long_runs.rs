@@ -440,6 +440,21 @@ fn parquet_rows(bytes: &[u8]) -> Vec<Vec<(String, String)>> {
     .collect()
 }
 
+/// A build without the feature names it, and searches nothing.
+#[cfg(not(feature = "parquet"))]
+#[test]
+fn a_parquet_table_needs_a_feature_of_the_build() {
+    let runs = Runs::new(QUICK);
+    let mut call = Command::new(env!("CARGO_BIN_EXE_bogie"));
+    call.arg("pareto").arg(&runs.spec).arg("--out");
+    call.arg(runs.out("parquet")).args(["--format", "parquet"]);
+    let output = call.output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let message = "tables as Parquet need a build with `--features parquet`";
+    assert!(stderr(&output).contains(message), "{}", stderr(&output));
+    assert!(!runs.out("parquet").exists());
+}
+
 #[test]
 fn a_front_is_the_same_in_every_form_and_none_of_its_points_is_dominated() {
     let runs = Runs::new(QUICK);

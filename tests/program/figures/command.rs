@@ -45,9 +45,20 @@ fn one_chart_goes_to_standard_output() {
     let (code, si, _) = chart(&["track-crosslevel", "--units", "si"]);
     assert_eq!(code, 0);
     assert!(si != svg.as_bytes());
-    let (code, png, _) = chart(&["Figure 3.4.3", "--files", "png"]);
-    assert_eq!(code, 0);
-    assert!(png.starts_with(b"\x89PNG") && png.ends_with(b"IEND\xaeB`\x82"));
+}
+
+/// A build without the feature names it, and draws nothing.
+#[test]
+fn a_picture_needs_a_feature_of_the_build() {
+    let (code, png, errors) = chart(&["Figure 3.4.3", "--files", "png"]);
+    if cfg!(feature = "png") {
+        assert_eq!(code, 0, "{errors}");
+        assert!(png.starts_with(b"\x89PNG") && png.ends_with(b"IEND\xaeB`\x82"));
+    } else {
+        assert_eq!((code, png.len()), (2, 0));
+        let message = "charts as PNG need a build with `--features png`";
+        assert!(errors.contains(message), "{errors}");
+    }
 }
 
 #[test]
