@@ -5,6 +5,7 @@ mod check;
 mod cli;
 mod doubtful_specs;
 mod edges_of_commands;
+mod examples;
 mod figures;
 mod hostile_specs;
 mod invalid_specs;
