@@ -135,13 +135,6 @@ pub struct Search {
     pub thorough: bool,
 }
 
-impl Search {
-    /// The options that decide what is searched, as they are written.
-    pub fn written(&self) -> &'static str {
-        if self.thorough { " --thorough" } else { "" }
-    }
-}
-
 /// Options of `optimize`.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
@@ -307,9 +300,17 @@ pub enum TableFormat {
     Json,
     /// SI, with the unit in every column's name
     Csv,
-    /// As CSV, for data frames
-    #[cfg(feature = "parquet")]
+    /// As CSV, for data frames; needs a build with `--features parquet`
     Parquet,
+}
+
+impl From<Format> for TableFormat {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Text => Self::Text,
+            Format::Json => Self::Json,
+        }
+    }
 }
 
 /// Form of a result.
@@ -416,8 +417,7 @@ pub enum Units {
 pub enum ChartFile {
     /// The drawing
     Svg,
-    /// A picture of 288 pixels per inch
-    #[cfg(feature = "png")]
+    /// A picture of 288 pixels per inch; needs a build with `--features png`
     Png,
     /// The numbers behind it, SI, a table per panel
     Csv,

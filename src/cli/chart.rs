@@ -13,7 +13,6 @@ use serde_json::{Value, json};
 use super::{
     Done, Failure,
     arguments::{Chart, ChartFile, Format, Units},
-    commands::{failed, wrong},
     input, output,
     progress::Line,
 };
@@ -29,7 +28,7 @@ pub fn chart(call: &Chart) -> Result<Done, Failure> {
         output::print(list(call.format)?)?;
         return Ok(Done::Complete);
     };
-    let input::Named { name, spec, .. } = input::read(path)?;
+    let input = input::read(path)?;
     let entries = wanted(call)?;
     let system = match call.units {
         Units::Us => System::Us,
@@ -41,8 +40,11 @@ pub fn chart(call: &Chart) -> Result<Done, Failure> {
         ([], Some(_)) => &[ChartFile::Svg, ChartFile::Csv],
         (files, _) => files,
     };
+    if files.contains(&ChartFile::Png) && !cfg!(feature = "png") {
+        return Err(Failure::needs("charts as PNG", "png"));
+    }
     if call.out.is_none() && (entries.len() > 1 || files.len() > 1) {
-        return Err(wrong(
+        return Err(Failure::wrong(
             "more than one file does not go to standard output: name a folder with --out DIR",
         ));
     }
@@ -50,7 +52,7 @@ pub fn chart(call: &Chart) -> Result<Done, Failure> {
         output::ready(folder)?;
     }
     let progress = Line::charts(entries.len());
-    let workbook = Workbook::new(&spec, &name, system, &progress);
+    let workbook = Workbook::new(&input.spec, &input.name, system, &progress);
     let figures: Vec<(&Entry, Figure)> = entries
         .into_iter()
         .map(|entry| {
@@ -66,14 +68,14 @@ pub fn chart(call: &Chart) -> Result<Done, Failure> {
     let Some(folder) = call.out.as_deref() else {
         let mut all = drawn.into_iter().flat_map(|(_, files)| files);
         let (Some(only), None) = (all.next(), all.next()) else {
-            return Err(wrong(
+            return Err(Failure::wrong(
                 "this chart has a table for each of its panels: name a folder with --out DIR",
             ));
         };
         output::print(only.content)?;
         return Ok(Done::Complete);
     };
-    write(&name, folder, drawn, call.format)
+    write(&input.name, folder, drawn, call.format)
 }
 
 /// Writes everything; nothing is written before all is drawn.
@@ -112,7 +114,7 @@ fn wanted(call: &Chart) -> Result<Vec<&'static Entry>, Failure> {
             let near = book::suggestion(name)
                 .map(|near| format!("did you mean `{near}`? "))
                 .unwrap_or_default();
-            wrong(&format!(
+            Failure::wrong(format_args!(
                 "unknown chart `{name}`; {near}`bogie chart --list` names all"
             ))
         })?;
@@ -154,7 +156,7 @@ fn signed(mut result: Value) -> Result<String, Failure> {
     if let Value::Object(object) = &mut result {
         sign(object);
     }
-    serde_json::to_string_pretty(&result).map_err(failed)
+    output::json(&result)
 }
 
 fn draw(entry: &Entry, figure: &Figure, wanted: &[ChartFile]) -> Result<Vec<File>, Failure> {
@@ -170,8 +172,7 @@ fn draw(entry: &Entry, figure: &Figure, wanted: &[ChartFile]) -> Result<Vec<File
     for kind in wanted {
         match kind {
             ChartFile::Svg => add(".svg", drawing.svg(Theme::Print).into_bytes()),
-            #[cfg(feature = "png")]
-            ChartFile::Png => add(".png", bogie::plot::png::png(&drawing).map_err(failed)?),
+            ChartFile::Png => add(".png", png(&drawing)?),
             ChartFile::Csv => {
                 for (panel, table) in tables(figure) {
                     let panel = if panel.is_empty() {
@@ -183,9 +184,19 @@ fn draw(entry: &Entry, figure: &Figure, wanted: &[ChartFile]) -> Result<Vec<File
                 }
             }
             ChartFile::Json => {
-                add(".json", (signed(drawing.json())? + "\n").into_bytes());
+                add(".json", signed(drawing.json())?.into_bytes());
             }
         }
     }
     Ok(files)
+}
+
+#[cfg(feature = "png")]
+fn png(drawing: &Drawing) -> Result<Vec<u8>, Failure> {
+    bogie::plot::png::png(drawing).map_err(Failure::failed)
+}
+
+#[cfg(not(feature = "png"))]
+fn png(_: &Drawing) -> Result<Vec<u8>, Failure> {
+    Err(Failure::needs("charts as PNG", "png"))
 }

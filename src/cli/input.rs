@@ -6,23 +6,12 @@ use std::{
     path::Path,
 };
 
-use bogie::spec::{Diagnostics, Doubts, MAX_BYTES, Spec, printable};
-
-use sha2::{Digest, Sha256};
+use bogie::{
+    run::Input,
+    spec::{Diagnostics, Doubts, MAX_BYTES, printable},
+};
 
 use super::{Failure, output};
-
-/// A spec with the name that results carry.
-pub struct Named {
-    pub name: String,
-    pub spec: Spec,
-    /// The spec's text.
-    pub source: String,
-    /// SHA-256 of it.
-    pub digest: String,
-    /// What is doubtful in the spec, a sentence each.
-    pub warnings: Vec<String>,
-}
 
 /// A file before it is read as a spec.
 pub struct File {
@@ -34,21 +23,11 @@ pub struct File {
 }
 
 /// Reads a spec from a file, or from standard input for `-`. Doubts go to standard error.
-pub fn read(path: &Path) -> Result<Named, Failure> {
+pub fn read(path: &Path) -> Result<Input, Failure> {
     let file = open(path)?;
-    let spec = Spec::read(&file.bytes).map_err(|mistakes| file.refuse(&mistakes))?;
-    file.show(&spec.doubts);
-    let digest = format!("{:x}", Sha256::digest(&file.bytes));
-    let warnings = spec.doubts.sentences().collect();
-    let source = file.text().into_owned();
-    let name = file.name;
-    Ok(Named {
-        name,
-        spec,
-        source,
-        digest,
-        warnings,
-    })
+    let input = Input::read(&file.name, &file.bytes).map_err(|mistakes| file.refuse(&mistakes))?;
+    file.show(&input.spec.doubts);
+    Ok(input)
 }
 
 impl File {

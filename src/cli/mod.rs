@@ -15,9 +15,10 @@ mod progress;
 mod report;
 mod sweep;
 
-use std::process::ExitCode;
+use std::{fmt::Display, path::Path, process::ExitCode};
 
 use arguments::{Arguments, Command};
+use bogie::design::procedure::DesignError;
 
 /// Why a command ends without a result.
 #[derive(Debug)]
@@ -28,6 +29,40 @@ enum Failure {
     Failed(String),
     /// The reader of a result that comes in parts went away.
     Closed,
+}
+
+impl Failure {
+    /// Of something that is neither the call's nor the spec's mistake.
+    fn failed(error: impl Display) -> Self {
+        Self::Failed(error.to_string())
+    }
+
+    /// Of a call that is wrong.
+    fn wrong(text: impl Display) -> Self {
+        Self::Invalid(format!("error: {text}"))
+    }
+
+    /// Of an option with a wrong value.
+    fn option<E: Display>(name: &str) -> impl Fn(E) -> Self {
+        move |error| Self::wrong(format_args!("{name}: {error}"))
+    }
+
+    /// Of a call for what this build leaves out.
+    fn needs(what: &str, feature: &str) -> Self {
+        Self::wrong(format_args!(
+            "{what} need a build with `--features {feature}`"
+        ))
+    }
+
+    /// Of a spec that leaves nothing to choose, or nothing to choose by.
+    fn design(spec: &Path, error: DesignError) -> Self {
+        match error {
+            DesignError::NothingOpen | DesignError::NoRequirement => {
+                Self::wrong(format_args!("{}: {error}", spec.display()))
+            }
+            error @ DesignError::Eigen(_) => Self::failed(error),
+        }
+    }
 }
 
 /// How a command that has a result ends.

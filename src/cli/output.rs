@@ -6,9 +6,13 @@ use std::{
     path::Path,
 };
 
-use bogie::export::file;
+use bogie::{
+    export::{file, table::Table},
+    run::{Answer, Written},
+};
+use serde_json::Value;
 
-use super::Failure;
+use super::{Failure, arguments::TableFormat};
 
 /// Says something on standard error. That nobody hears it changes nothing of the work.
 pub fn say(text: impl Display) {
@@ -32,6 +36,47 @@ pub fn cannot_write(place: &Path, error: &io::Error) -> Failure {
         .map(|file| format!("{} is a file; name a folder", file.display()));
     let why = file.unwrap_or_else(|| error.to_string());
     Failure::Failed(format!("cannot write {}: {why}", place.display()))
+}
+
+/// Writes an answer to standard output, or into a folder as the command's file.
+pub fn deliver<T: Written>(
+    answer: &Answer<T>,
+    command: &str,
+    format: impl Into<TableFormat>,
+    out: Option<&Path>,
+) -> Result<(), Failure> {
+    let table = || answer.table().unwrap_or_default();
+    let (content, ending) = match format.into() {
+        TableFormat::Text => (answer.text().into_bytes(), "txt"),
+        TableFormat::Json => (json(&answer.json())?.into_bytes(), "json"),
+        TableFormat::Csv => (table().csv().into_bytes(), "csv"),
+        TableFormat::Parquet => (parquet(&table())?, "parquet"),
+    };
+    write(content, out, &format!("{command}.{ending}"))
+}
+
+/// JSON as it is written: indented, with a line's end.
+pub fn json(value: &Value) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(Failure::failed)?;
+    Ok(text + "\n")
+}
+
+#[cfg(feature = "parquet")]
+fn parquet(table: &Table) -> Result<Vec<u8>, Failure> {
+    table.parquet().map_err(Failure::failed)
+}
+
+#[cfg(not(feature = "parquet"))]
+fn parquet(_: &Table) -> Result<Vec<u8>, Failure> {
+    Err(Failure::needs("tables as Parquet", "parquet"))
+}
+
+/// Makes sure that this build can write a form, before the work for it.
+pub fn can_write(format: TableFormat) -> Result<(), Failure> {
+    if format == TableFormat::Parquet && !cfg!(feature = "parquet") {
+        return Err(Failure::needs("tables as Parquet", "parquet"));
+    }
+    Ok(())
 }
 
 /// Writes a result to standard output, or into a folder as `name`.

@@ -3,76 +3,45 @@
 use std::path::Path;
 
 use bogie::{
-    design::doubts::warnings,
-    design::{
-        outcome::DesignResult,
-        pareto::{self, Front},
-        sensitivity::Sensitivity,
-    },
+    design::pareto::Front,
     export::file,
-    optimize::archive::Archive,
-    report::{Report, charts, page},
-    spec::Spec,
+    run::{Archive, Page, Run},
 };
 
-use super::{
-    Done, Failure, arguments,
-    commands::{failed, together, wrong},
-    design::tell,
-    input::{self, Named},
-    interrupt, output,
-    progress::Line,
-};
+use super::{Done, Failure, arguments, design::tell, input, interrupt, output, progress::Line};
 
 pub fn report(call: &arguments::Report) -> Result<Done, Failure> {
-    let named = input::read(&call.source.spec)?;
+    let input = input::read(&call.source.spec)?;
     ready(&call.page)?;
-    let result = DesignResult::as_given(&named.spec).map_err(failed)?;
-    let command = format!("bogie report {0}.toml {0}.html", named.name);
     let progress = Line::new();
-    let archive = Archive::new(&progress).with_interrupt(interrupt::flag());
-    let front = front(&named.spec, &archive);
+    let run = Run::new(&input).watched(&progress, interrupt::flag());
+    let design = run.as_given().map_err(Failure::failed)?;
+    let archive = run.archive(None);
+    let front = front(run, &archive);
     progress.finish();
     tell(&archive);
-    let made = Made {
-        named: &named,
-        result: &result,
-        designed: false,
+    let shown = Page {
+        design: &design,
         matters: None,
         front: front.as_ref(),
-        command,
     };
-    made.write(&call.page)?;
+    let command = format!("bogie report {0}.toml {0}.html", input.name);
+    write(run, shown, &command, &call.page)?;
     Ok(Done::of(archive.stopped().is_some(), true))
 }
 
-/// The page of an optimisation.
-pub fn optimized(
-    named: &Named,
-    result: &DesignResult,
-    matters: Option<&Sensitivity>,
-    front: Option<&Front>,
-    call: &arguments::Optimize,
-    page: &Path,
-) -> Result<(), Failure> {
+/// The call that makes the page of an optimisation again.
+pub fn command(name: &str, call: &arguments::Optimize) -> String {
     let limit = call
         .search
         .budget
         .map_or_else(String::new, |n| format!(" --budget {n}"));
-    let command = format!(
-        "bogie optimize {0}.toml{limit}{1} --report {0}.html",
-        named.name,
-        call.search.written()
-    );
-    let made = Made {
-        named,
-        result,
-        designed: true,
-        matters,
-        front,
-        command,
+    let thorough = if call.search.thorough {
+        " --thorough"
+    } else {
+        ""
     };
-    made.write(page)
+    format!("bogie optimize {name}.toml{limit}{thorough} --report {name}.html")
 }
 
 /// Makes sure that a page can be written, before the work for it.
@@ -81,7 +50,7 @@ pub fn ready(page: &Path) -> Result<(), Failure> {
         return Ok(());
     }
     if page.is_dir() {
-        return Err(wrong(&format!(
+        return Err(Failure::wrong(format_args!(
             "{} is a folder: name a file for the report",
             page.display()
         )));
@@ -92,63 +61,24 @@ pub fn ready(page: &Path) -> Result<(), Failure> {
     output::ready(folder.unwrap_or(Path::new(".")))
 }
 
-/// A result of which a page is made.
-struct Made<'a> {
-    named: &'a Named,
-    result: &'a DesignResult,
-    designed: bool,
-    matters: Option<&'a Sensitivity>,
-    front: Option<&'a Front>,
-    command: String,
+/// Makes and writes a page.
+pub fn write(run: Run, shown: Page, command: &str, path: &Path) -> Result<(), Failure> {
+    let progress = Line::charts(run.charts(shown.design));
+    let html = run.page(shown, command, &progress, |entry| {
+        progress.chart(&entry.number());
+    });
+    progress.finish();
+    if path.as_os_str() == "-" {
+        return output::print(html);
+    }
+    file::write(path, html).map_err(|error| output::cannot_write(path, &error))?;
+    output::say(format_args!("wrote {}", path.display()));
+    Ok(())
 }
 
-impl Made<'_> {
-    fn write(&self, path: &Path) -> Result<(), Failure> {
-        let Named {
-            name,
-            spec,
-            source,
-            digest,
-            warnings: doubts,
-        } = self.named;
-        let result = self.result;
-        let progress = Line::charts(charts::entries(&result.case).len());
-        let figures = charts::figures(spec, name, &result.case, &progress, |entry| {
-            progress.chart(&entry.number());
-        });
-        progress.finish();
-        let all = together(
-            doubts,
-            &warnings(&result.case, &result.evaluation, &spec.demands),
-        );
-        let html = page(&Report {
-            name,
-            source,
-            digest,
-            command: &self.command,
-            spec,
-            result,
-            designed: self.designed,
-            matters: self.matters,
-            front: self.front,
-            figures: &figures,
-            warnings: &all,
-        });
-        if path.as_os_str() == "-" {
-            return output::print(html);
-        }
-        file::write(path, html).map_err(|error| output::cannot_write(path, &error))?;
-        output::say(format_args!("wrote {}", path.display()));
-        Ok(())
-    }
-}
-
-/// The front, where the spec asks for one and something is open to trace it with.
-pub fn front(spec: &Spec, archive: &Archive) -> Option<Front> {
-    if !spec.front.asked || spec.design.parameters.is_empty() {
-        return None;
-    }
-    let front = pareto::pareto(spec, archive);
+/// The front of a page, where the spec asks for one and there is one.
+pub fn front(run: Run, archive: &Archive) -> Option<Front> {
+    let front = run.front(archive)?;
     if let Some(failure) = front.failure {
         output::say(format_args!("warning: no front: {failure}"));
         return None;

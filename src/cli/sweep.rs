@@ -8,12 +8,10 @@ use std::{
 };
 
 use bogie::{
-    design::{procedure::DesignError, sensitivity::analysis::indices_of, sweep},
-    export::{self, origin::PROGRAM},
-    optimize::{
-        archive::Progress,
-        journal::{Header, Journal},
-    },
+    design::sweep,
+    export,
+    optimize::journal::Journal,
+    run::{Journaled, Progress, Run},
 };
 use rayon::prelude::*;
 
@@ -30,23 +28,19 @@ const BLOCK: usize = 16;
 const CHUNK: usize = 1024;
 
 pub fn sweep(call: &Sweep) -> Result<Done, Failure> {
-    let input::Named { spec, digest, .. } = input::read(&call.source.spec)?;
-    let indices = if call.indices.is_empty() {
-        indices_of(&spec)
-    } else {
-        design::indices(&call.indices)?
+    let input = input::read(&call.source.spec)?;
+    let run = Run::new(&input);
+    let indices = run.asked(&design::indices(&call.indices)?);
+    let seed = call.seed.unwrap_or(input.spec.design.seed);
+    let sweep = run
+        .sweep(&indices, seed)
+        .map_err(|error| Failure::design(&call.source.spec, error))?;
+    let request = Journaled::Sweep {
+        indices: &indices,
+        seed,
+        form: &call.format.to_string(),
     };
-    let seed = call.seed.unwrap_or(spec.design.seed);
-    let sweep = sweep::Sweep::new(&spec, &indices, seed).ok_or_else(|| {
-        let shown = call.source.spec.display();
-        Failure::Invalid(format!("error: {shown}: {}", DesignError::NothingOpen))
-    })?;
-    let names: Vec<&str> = indices.iter().map(|index| index.name()).collect();
-    let header = Header {
-        program: PROGRAM.into(),
-        digest: format!("sweep {digest} {seed} {} {}", names.join(","), call.format),
-    };
-    let mut place = Place::new(call, &header)?;
+    let mut place = Place::new(call, run, request)?;
     let begun = place.begun;
     if begun == 0 {
         place.write(&lines(call.format, &sweep, &[], true))?;
@@ -99,7 +93,7 @@ struct Partial {
 }
 
 impl Place {
-    fn new(call: &Sweep, header: &Header) -> Result<Self, Failure> {
+    fn new(call: &Sweep, run: Run, request: Journaled) -> Result<Self, Failure> {
         let Some(folder) = &call.out else {
             return Ok(Self {
                 file: None,
@@ -107,7 +101,7 @@ impl Place {
             });
         };
         output::ready(folder)?;
-        let journal = design::journal(&folder.join("sweep.journal"), header, call.resume)?.0;
+        let journal = design::journal(run, request, folder, call.resume)?.0;
         let whole = folder.join(format!("sweep.{}", call.format));
         let path = folder.join(format!("sweep.{}.partial", call.format));
         let cannot = |error| output::cannot_write(&path, &error);

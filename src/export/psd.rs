@@ -185,8 +185,8 @@ impl Spectra {
         })
     }
 
-    /// As CSV, a row per frequency.
-    pub fn csv(&self) -> String {
+    /// As a table, a row per frequency.
+    pub fn table(&self) -> Table {
         let mut table = Table::new();
         table.number("frequency_hz", self.frequency.iter().copied());
         let lateral = self.lateral.iter().flatten().map(|c| ("lateral", c));
@@ -194,7 +194,7 @@ impl Spectra {
         for (direction, (name, values)) in lateral.chain(vertical) {
             table.number(format!("{direction}_{name}"), values.iter().copied());
         }
-        table.csv()
+        table
     }
 }
 

@@ -7,7 +7,7 @@ use resvg::{
     usvg::{Options, Tree, fontdb::Database},
 };
 
-use super::{Drawing, Theme, font};
+use super::{Drawing, Theme};
 
 /// Pixels of the picture per pixel of the drawing: 288 per inch, enough for print.
 const SCALE: f32 = 3.0;
@@ -28,7 +28,7 @@ pub enum PngError {
 
 static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
     let mut fonts = Database::new();
-    fonts.load_font_data(font::bytes().to_vec());
+    fonts.load_font_data(dejavu::sans_condensed::regular().to_vec());
     fonts.load_font_data(dejavu::sans_condensed::bold().to_vec());
     // The condensed faces belong to the family without that word.
     fonts.set_sans_serif_family("DejaVu Sans");
