@@ -26,27 +26,74 @@ pub struct Element {
     pub breakaway: Option<f64>,
 }
 
-/// Name of an element, by truck (0, 1), wheelset (0–3) and side (0 left, 1 right).
+/// Name of an element: its kind, its place, and its side (0 left, 1 right) where both sides have one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Name {
-    /// Primary lateral springs of a wheelset.
-    PrimaryLateral(usize),
-    /// Primary longitudinal springs of a wheelset, in yaw.
-    PrimaryYaw(usize),
-    /// Primary vertical springs of a wheelset, in roll of the frame.
-    PrimaryRoll(usize),
-    /// Primary vertical spring of a wheelset on a side.
-    PrimaryVertical(usize, usize),
-    /// Secondary lateral springs of a truck.
-    SecondaryLateral(usize),
-    /// Secondary vertical springs of a truck, in roll.
-    SecondaryRoll(usize),
-    /// Secondary yaw element of a truck.
-    SecondaryYaw(usize),
-    /// Secondary vertical spring of a truck on a side.
-    SecondaryVertical(usize, usize),
-    /// Weight that overturns a body on its springs: of a truck frame, or of the carbody.
-    Weight(Option<usize>),
+pub struct Name {
+    /// Kind, in words.
+    pub kind: &'static str,
+    /// Place along the vehicle.
+    pub place: Place,
+    /// Side.
+    pub side: usize,
+}
+
+/// Place of an element along the vehicle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// At truck 0 or 1.
+    Truck(usize),
+    /// At wheelset 0–3.
+    Wheelset(usize),
+    /// At none of them.
+    Vehicle,
+}
+
+impl Name {
+    /// Of an element of truck `j`.
+    pub const fn of_truck(kind: &'static str, j: usize) -> Self {
+        let place = Place::Truck(j);
+        Self {
+            kind,
+            place,
+            side: 0,
+        }
+    }
+
+    /// Of an element of wheelset `i`.
+    pub const fn of_wheelset(kind: &'static str, i: usize) -> Self {
+        let place = Place::Wheelset(i);
+        Self {
+            kind,
+            place,
+            side: 0,
+        }
+    }
+
+    /// The same element on a side.
+    #[must_use]
+    pub const fn on_side(self, side: usize) -> Self {
+        Self { side, ..self }
+    }
+
+    /// The same element of the trailing end, for one of the leading end.
+    pub fn at_trailing_end(self) -> Option<Self> {
+        let place = match self.place {
+            Place::Truck(0) => Place::Truck(1),
+            Place::Wheelset(i @ (0 | 1)) => Place::Wheelset(i + 2),
+            _ => return None,
+        };
+        Some(Self { place, ..self })
+    }
+
+    /// The mirror image behind the middle of the vehicle, for an element ahead of it.
+    pub fn mirrored_behind(self) -> Option<Self> {
+        let place = match self.place {
+            Place::Truck(0) => Place::Truck(1),
+            Place::Wheelset(i @ (0 | 1)) => Place::Wheelset(3 - i),
+            _ => return None,
+        };
+        Some(Self { place, ..self })
+    }
 }
 
 /// Law of an element: a spring and a damper side by side, and beside them perhaps a branch with a massless inner

@@ -7,7 +7,7 @@ mod forced;
 pub mod lateral;
 mod poles;
 mod row;
-mod suspension;
+pub mod suspension;
 mod tangent;
 pub mod vertical;
 

@@ -16,10 +16,29 @@
 
 use super::{
     Row,
-    element::{Element, Law, Name},
+    element::{Element, Law, Name, Place},
     lateral, vertical,
 };
 use crate::vehicle::{End, GRAVITY};
+
+/// Kinds of elements.
+pub const PRIMARY_LATERAL: &str = "primary lateral";
+/// Longitudinal springs, in yaw.
+pub const PRIMARY_YAW: &str = "primary yaw";
+/// Vertical springs, in roll of the frame.
+pub const PRIMARY_ROLL: &str = "primary roll";
+/// One spring.
+pub const PRIMARY_VERTICAL: &str = "primary vertical";
+/// Both sides.
+pub const SECONDARY_LATERAL: &str = "secondary lateral";
+/// Vertical springs, in roll.
+pub const SECONDARY_ROLL: &str = "secondary roll";
+/// The element that may slip.
+pub const SECONDARY_YAW: &str = "secondary yaw";
+/// One spring.
+pub const SECONDARY_VERTICAL: &str = "secondary vertical";
+/// Overturning weight of a body on its springs.
+const WEIGHT: &str = "weight";
 
 /// Elements of the lateral model.
 pub(super) fn lateral(model: &lateral::Builder) -> Vec<Element> {
@@ -42,16 +61,27 @@ pub(super) fn lateral(model: &lateral::Builder) -> Vec<Element> {
             model.primary_lateral_stretch(i),
         );
         let law = Law::new(primary.lateral_stiffness, primary.c_py()).times(2.0);
-        elements.push(element(Name::PrimaryLateral(i), row, stretch, free, law));
+        elements.push(element(
+            Name::of_wheelset(PRIMARY_LATERAL, i),
+            row,
+            stretch,
+            free,
+            law,
+        ));
 
         let law = Law::new(primary.longitudinal_stiffness, primary.c_px()).times(2.0 * d_p2);
         let yaw = q.psi_t(j) - q.psi_w(i);
-        elements.push(Element::new(Name::PrimaryYaw(i), yaw, law));
+        elements.push(Element::new(Name::of_wheelset(PRIMARY_YAW, i), yaw, law));
 
         if let Some(phi_t) = q.phi_t(j) {
             let stretch = phi_t.clone() - model.wheelset_roll(i);
             let law = Law::new(primary.vertical_stiffness, primary.c_pz()).times(2.0 * d_p2);
-            elements.push(Element::acting(Name::PrimaryRoll(i), phi_t, stretch, law));
+            elements.push(Element::acting(
+                Name::of_wheelset(PRIMARY_ROLL, i),
+                phi_t,
+                stretch,
+                law,
+            ));
         }
     }
     let half_carbody_weight = vehicle.carbody.mass * GRAVITY / 2.0;
@@ -66,13 +96,19 @@ pub(super) fn lateral(model: &lateral::Builder) -> Vec<Element> {
             model.secondary_lateral_stretch(j),
         );
         let law = Law::new(secondary.lateral_stiffness, secondary.lateral_damping).times(2.0);
-        elements.push(element(Name::SecondaryLateral(j), row, stretch, free, law));
+        elements.push(element(
+            Name::of_truck(SECONDARY_LATERAL, j),
+            row,
+            stretch,
+            free,
+            law,
+        ));
 
         let stretch = q.phi_c() - model.truck_roll(j);
         let law =
             Law::new(secondary.vertical_stiffness, secondary.vertical_damping).times(2.0 * d_s2);
         elements.push(element(
-            Name::SecondaryRoll(j),
+            Name::of_truck(SECONDARY_ROLL, j),
             q.phi_c(),
             stretch,
             free,
@@ -81,7 +117,7 @@ pub(super) fn lateral(model: &lateral::Builder) -> Vec<Element> {
 
         let yaw = q.psi_c() - q.psi_t(j);
         let law = Law::new(secondary.yaw_stiffness, secondary.c_spsi());
-        let yaw = Element::new(Name::SecondaryYaw(j), yaw, law);
+        let yaw = Element::new(Name::of_truck(SECONDARY_YAW, j), yaw, law);
         elements.push(yaw.slipping_at(secondary.yaw_breakaway_torque));
 
         if let Some(phi_t) = q.phi_t(j) {
@@ -89,12 +125,17 @@ pub(super) fn lateral(model: &lateral::Builder) -> Vec<Element> {
             let weight = half_carbody_weight * truck.depth_below_secondary
                 + (half_carbody_weight + truck_weight) * truck.height_above_primary;
             let law = Law::new(-weight, 0.0);
-            elements.push(Element::new(Name::Weight(Some(j)), phi_t, law));
+            elements.push(Element::new(Name::of_truck(WEIGHT, j), phi_t, law));
         }
     }
     let overturning = 2.0 * half_carbody_weight * vehicle.carbody.height_above_secondary;
     let law = Law::new(-overturning, 0.0);
-    elements.push(Element::new(Name::Weight(None), q.phi_c(), law));
+    let overturns = Name {
+        kind: WEIGHT,
+        place: Place::Vehicle,
+        side: 0,
+    };
+    elements.push(Element::new(overturns, q.phi_c(), law));
     elements
 }
 
@@ -109,7 +150,11 @@ pub(super) fn vertical(model: &vertical::Builder) -> Vec<Element> {
         };
         for (side, sign) in SIDES {
             let stretch = model.secondary_stretch(j, sign);
-            elements.push(Element::new(Name::SecondaryVertical(j, side), stretch, law));
+            elements.push(Element::new(
+                Name::of_truck(SECONDARY_VERTICAL, j).on_side(side),
+                stretch,
+                law,
+            ));
         }
     }
     for i in 0..4 {
@@ -117,7 +162,11 @@ pub(super) fn vertical(model: &vertical::Builder) -> Vec<Element> {
         let law = Law::new(primary.vertical_stiffness, primary.c_pz());
         for (side, sign) in SIDES {
             let stretch = model.primary_stretch(i, sign);
-            elements.push(Element::new(Name::PrimaryVertical(i, side), stretch, law));
+            elements.push(Element::new(
+                Name::of_wheelset(PRIMARY_VERTICAL, i).on_side(side),
+                stretch,
+                law,
+            ));
         }
     }
     elements

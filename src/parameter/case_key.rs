@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use crate::{
     case::{Case, SERVICE, Service},
     units::{Need, Number, Quantity, Range},
-    vehicle::{TABLES, Vehicle},
+    vehicle::{Vehicle, tables},
     wheel_rail::{WHEEL_RAIL, WheelRail},
 };
 
@@ -112,7 +112,7 @@ pub fn keys() -> &'static [CaseKey] {
     static KEYS: OnceLock<Vec<CaseKey>> = OnceLock::new();
     KEYS.get_or_init(|| {
         let of_vehicle = |prefix: &'static str| {
-            let tables = TABLES.iter().filter(move |t| t.path.starts_with(prefix));
+            let tables = tables().filter(move |t| t.path.starts_with(prefix));
             tables.flat_map(|table| table.numbers)
         };
         let service = SERVICE.numbers.iter();

@@ -33,7 +33,13 @@ const VERTICAL: [&str; 6] = [
     "passenger.lateral",
 ];
 /// The same of the lateral trade-off.
-const LATERAL: [&str; 3] = ["secondary_lateral", "secondary.lateral", "passenger.height"];
+const LATERAL: [&str; 5] = [
+    "secondary_lateral",
+    "secondary.lateral",
+    "passenger.height",
+    "roll_inertia",
+    "_roll_",
+];
 
 impl Parameter {
     /// Trade-off that it belongs to: that of the element that it is a constant of. A number of the whole

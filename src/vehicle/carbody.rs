@@ -9,6 +9,9 @@ use crate::units::{
     Table, number,
 };
 
+/// Tables of the carbody's numbers.
+pub(super) static TABLES: [&Table<Vehicle>; 4] = [&CARBODY, &BENDING, &TORSION_1, &TORSION_2];
+
 /// Carbody, SI units; subscript c in the report.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Carbody {
@@ -54,7 +57,7 @@ impl FlexibleMode {
 
 /// Numbers of `[vehicle.carbody]`.
 #[rustfmt::skip]
-pub static CARBODY: Table<Vehicle> = Table {
+static CARBODY: Table<Vehicle> = Table {
     path: "vehicle.carbody",
     meaning: "One carbody.",
     numbers: &[
@@ -70,7 +73,7 @@ pub static CARBODY: Table<Vehicle> = Table {
 
 /// Numbers of `[vehicle.carbody.bending]`.
 #[rustfmt::skip]
-pub static BENDING: Table<Vehicle> = Table {
+static BENDING: Table<Vehicle> = Table {
     path: "vehicle.carbody.bending",
     meaning: "First vertical bending mode of the carbody.",
     numbers: &[
@@ -82,7 +85,7 @@ pub static BENDING: Table<Vehicle> = Table {
 
 /// Numbers of `[vehicle.carbody.torsion_1]`.
 #[rustfmt::skip]
-pub static TORSION_1: Table<Vehicle> = Table {
+static TORSION_1: Table<Vehicle> = Table {
     path: "vehicle.carbody.torsion_1",
     meaning: "First torsion mode of the carbody.",
     numbers: &[
@@ -94,7 +97,7 @@ pub static TORSION_1: Table<Vehicle> = Table {
 
 /// Numbers of `[vehicle.carbody.torsion_2]`.
 #[rustfmt::skip]
-pub static TORSION_2: Table<Vehicle> = Table {
+static TORSION_2: Table<Vehicle> = Table {
     path: "vehicle.carbody.torsion_2",
     meaning: "Second torsion mode of the carbody.",
     numbers: &[

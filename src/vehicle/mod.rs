@@ -28,18 +28,14 @@ use serde::Serialize;
 use crate::units::Table;
 
 /// The numbers of a vehicle, table by table.
-pub static TABLES: [&Table<Vehicle>; 10] = [
-    &carbody::CARBODY,
-    &carbody::BENDING,
-    &carbody::TORSION_1,
-    &carbody::TORSION_2,
-    &truck::TRUCK,
-    &wheelset::WHEELSET,
-    &suspension::PRIMARY,
-    &suspension::SECONDARY,
-    &suspension::AIR_SPRING,
-    &passenger::PASSENGER,
-];
+pub fn tables() -> impl Iterator<Item = &'static Table<Vehicle>> + Clone {
+    let running_gear = [&truck::TRUCK, &wheelset::WHEELSET];
+    carbody::TABLES
+        .into_iter()
+        .chain(running_gear)
+        .chain(suspension::TABLES)
+        .chain([&passenger::PASSENGER])
+}
 
 /// One vehicle with its suspension and the points where its passengers sit.
 #[derive(Debug, Clone, PartialEq, Serialize)]

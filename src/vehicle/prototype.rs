@@ -51,8 +51,8 @@ impl Vehicle {
                 rolling_radius: 1.5 * FOOT,
                 half_contact_distance: 2.35 * FOOT,
             },
-            suspension: Suspension {
-                primary: Primary {
+            suspension: Suspension::new(
+                Primary {
                     longitudinal_stiffness: 1.0e6 * LBF / FOOT,
                     lateral_stiffness: 5.0e5 * LBF / FOOT,
                     vertical_stiffness: 1.935e6 * LBF / FOOT,
@@ -60,7 +60,7 @@ impl Vehicle {
                     lateral_damping: None,
                     vertical_damping: None,
                 },
-                secondary: Secondary {
+                Secondary {
                     lateral_stiffness: 24_000.0 * LBF / FOOT,
                     lateral_damping: 1_200.0 * LBF / FOOT,
                     vertical_stiffness: 22_200.0 * LBF / FOOT,
@@ -70,7 +70,7 @@ impl Vehicle {
                     yaw_breakaway_torque: 7_500.0 * LBF * FOOT,
                     air_spring: None,
                 },
-            },
+            ),
             passenger: Passenger {
                 longitudinal_offset: 29.75 * FOOT,
                 lateral_offset: 3.75 * FOOT,

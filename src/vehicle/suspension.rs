@@ -23,6 +23,16 @@ pub struct Suspension {
     pub secondary: Secondary,
 }
 
+impl Suspension {
+    /// Springs and dampers of both stages, and nothing else.
+    pub fn new(primary: Primary, secondary: Secondary) -> Self {
+        Self { primary, secondary }
+    }
+}
+
+/// Tables of the suspension's numbers.
+pub(super) static TABLES: [&Table<Vehicle>; 3] = [&PRIMARY, &SECONDARY, &AIR_SPRING];
+
 /// Primary suspension, per corner (4 per truck).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Primary {
@@ -139,7 +149,7 @@ fn dependent(given: Option<f64>, stiffness: f64) -> f64 {
 
 /// Numbers of `[suspension.primary]`.
 #[rustfmt::skip]
-pub static PRIMARY: Table<Vehicle> = Table {
+static PRIMARY: Table<Vehicle> = Table {
     path: "suspension.primary",
     meaning: "Between wheelsets and truck frame, per corner (4 per truck).",
     numbers: &[
@@ -154,7 +164,7 @@ pub static PRIMARY: Table<Vehicle> = Table {
 
 /// Numbers of `[suspension.secondary]`.
 #[rustfmt::skip]
-pub static SECONDARY: Table<Vehicle> = Table {
+static SECONDARY: Table<Vehicle> = Table {
     path: "suspension.secondary",
     meaning: "Between truck frame and carbody, per side (2 per truck); yaw per truck.",
     numbers: &[

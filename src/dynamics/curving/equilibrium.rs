@@ -6,7 +6,10 @@
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use super::{CurvingModel, Side, form};
-use crate::dynamics::element::{Element, Name};
+use crate::dynamics::{
+    element::{Element, Name},
+    suspension::{PRIMARY_YAW, SECONDARY_YAW},
+};
 
 /// State of the secondary yaw element of a truck.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,7 +109,7 @@ impl CurvingModel {
 
     /// The yaw element of truck `j` with its stretch per unit of curvature, and its breakaway torque, N m.
     fn yaw_element(&self, j: usize) -> (&Element, f64, f64) {
-        let (element, offset) = self.element(Name::SecondaryYaw(j));
+        let (element, offset) = self.element(Name::of_truck(SECONDARY_YAW, j));
         (element, offset, element.breakaway.unwrap_or(f64::INFINITY))
     }
 
@@ -200,13 +203,13 @@ impl CurvingModel {
     /// Primary longitudinal stroke of wheelset `i` at a curvature, m: d_p (ψ_t − ψ_w ± b/R).
     pub fn primary_longitudinal_stroke(&self, curvature: f64, i: usize) -> f64 {
         let d_p = self.vehicle.end(i / 2).truck.half_primary_spacing;
-        d_p * self.stretch_at(Name::PrimaryYaw(i), curvature)
+        d_p * self.stretch_at(Name::of_wheelset(PRIMARY_YAW, i), curvature)
     }
 
     /// Torque that the yaw element of truck `j` puts on the truck at a curvature, N m, and its
     /// stretch, rad.
     pub fn secondary_yaw(&self, curvature: f64, j: usize) -> (f64, f64) {
-        let stretch = self.stretch_at(Name::SecondaryYaw(j), curvature);
+        let stretch = self.stretch_at(Name::of_truck(SECONDARY_YAW, j), curvature);
         let (element, _, torque) = self.yaw_element(j);
         let torque = match self.segment_at(curvature).breakaway[j] {
             Breakaway::Stuck => element.law.steady_stiffness() * stretch,

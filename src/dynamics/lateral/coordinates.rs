@@ -69,6 +69,7 @@ impl Coordinate {
             Self::TruckLateral(0) => Some(Self::TruckLateral(1)),
             Self::TruckYaw(0) => Some(Self::TruckYaw(1)),
             Self::TruckRoll(0) => Some(Self::TruckRoll(1)),
+            Self::Inner(name) => name.at_trailing_end().map(Self::Inner),
             _ => None,
         }
     }

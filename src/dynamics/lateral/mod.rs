@@ -22,7 +22,8 @@ use super::{
     ForcedModel, LinearSystem, Output,
     element::{self, Element, Name},
     forced::Excitation,
-    parts, suspension,
+    parts,
+    suspension::{self, PRIMARY_LATERAL, PRIMARY_YAW, SECONDARY_LATERAL},
 };
 use crate::{
     case::{Case, Crosslevel, Model},
@@ -171,12 +172,14 @@ impl Builder<'_> {
             [0.0, x, -x].map(|x| Output::acceleration(q.y_c() + x * q.psi_c() - h * q.phi_c()));
         let roll = Output::acceleration(q.phi_c());
         let stretch = |name| element::named(elements, name).stretch.clone();
-        let secondary = (0..2).map(|j| Output::displacement(stretch(Name::SecondaryLateral(j))));
-        let primary = (0..4).map(|i| Output::displacement(stretch(Name::PrimaryLateral(i))));
+        let secondary =
+            (0..2).map(|j| Output::displacement(stretch(Name::of_truck(SECONDARY_LATERAL, j))));
+        let primary =
+            (0..4).map(|i| Output::displacement(stretch(Name::of_wheelset(PRIMARY_LATERAL, i))));
         let excursion = (0..4).map(|i| Output::displacement(self.excursion(i)));
         let longitudinal = (0..4).map(|i| {
             let d_p = self.ends[i / 2].truck.half_primary_spacing;
-            Output::displacement(d_p * stretch(Name::PrimaryYaw(i)))
+            Output::displacement(d_p * stretch(Name::of_wheelset(PRIMARY_YAW, i)))
         });
         acceleration
             .into_iter()

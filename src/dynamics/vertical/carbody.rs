@@ -53,6 +53,12 @@ impl Builder<'_> {
             .fold(Row::default(), |sum, term| sum + term)
     }
 
+    /// ∂w/∂y, roll of the carbody with its torsion at a station.
+    pub(in crate::dynamics) fn carbody_roll(&self, x: f64) -> Row {
+        let xi = x / self.vehicle.carbody.length;
+        Row::unit(1) + torsion_1_shape(xi) * Row::unit(4) + torsion_2_shape(xi) * Row::unit(5)
+    }
+
     pub(super) fn add_flexible_modes(&self, system: &mut LinearSystem) {
         let carbody = &self.vehicle.carbody;
         let modes = [carbody.bending, carbody.torsion_1, carbody.torsion_2];

@@ -16,7 +16,7 @@ use super::{
     ForcedModel, LinearSystem, Output, Row,
     element::{self, Element, Name},
     forced::Excitation,
-    suspension,
+    suspension::{self, PRIMARY_VERTICAL, SECONDARY_VERTICAL},
 };
 use crate::{
     case::Case,
@@ -156,14 +156,14 @@ impl Builder<'_> {
 
     /// Elements on the left with those on the right, then all of the leading truck with those of the trailing one.
     fn mirrored(&self) -> Vec<[usize; 2]> {
-        let pair = |name: Name, other: Name| {
-            let place = |name| self.inner.iter().position(|inner| *inner == name);
-            Some([INNER + place(name)?, INNER + place(other)?])
-        };
-        let mut pairs = Vec::new();
-        let secondary = Name::SecondaryVertical;
-        pairs.extend((0..2).filter_map(|j| pair(secondary(j, 0), secondary(j, 1))));
-        pairs.extend((0..2).filter_map(|side| pair(secondary(0, side), secondary(1, side))));
+        let place = |name| self.inner.iter().position(|inner| *inner == name);
+        let pair = |name, other| Some([INNER + place(name)?, INNER + place(other)?]);
+        let inner = self.inner.iter().copied();
+        let left = inner.clone().filter(|name| name.side == 0);
+        let mut pairs: Vec<[usize; 2]> = left
+            .filter_map(|name| pair(name, name.on_side(1)))
+            .collect();
+        pairs.extend(inner.filter_map(|name| pair(name, name.mirrored_behind()?)));
         pairs.extend((0..3).map(|k| [TRUCKS + k, TRUCKS + 3 + k]));
         pairs
     }
@@ -193,6 +193,17 @@ impl Builder<'_> {
         Row::unit(first) + y * Row::unit(first + 1) - x * Row::unit(first + 2)
     }
 
+    /// φ_t of truck `j`.
+    pub(in crate::dynamics) fn truck_roll(j: usize) -> Row {
+        Row::unit(TRUCKS + 3 * j + 1)
+    }
+
+    /// Station of truck `j` ahead of the carbody's middle, m.
+    pub(in crate::dynamics) fn truck_station(&self, j: usize) -> f64 {
+        let l_s = self.vehicle.carbody.half_truck_spacing;
+        if j == 0 { l_s } else { -l_s }
+    }
+
     /// Height of the rail under the primary spring at ±d_p of wheelset `i`.
     fn rail(&self, i: usize, y: f64) -> Row {
         Row::unit(self.order() + i) + y * Row::unit(self.order() + 4 + i)
@@ -209,9 +220,8 @@ impl Builder<'_> {
 
     /// Stretch of the secondary spring of truck `j` on a side, +1 left and −1 right.
     pub(super) fn secondary_stretch(&self, j: usize, side: f64) -> Row {
-        let l_s = self.vehicle.carbody.half_truck_spacing;
         let y = side * self.ends[j].truck.half_secondary_spacing;
-        let x = if j == 0 { l_s } else { -l_s };
+        let x = self.truck_station(j);
         self.carbody_point(x, y) - Self::truck_point(j, 0.0, y)
     }
 
@@ -222,12 +232,23 @@ impl Builder<'_> {
             .map(|(x, y)| Output::acceleration(self.carbody_point(x, y)));
         let roll = Output::acceleration(Row::unit(1));
         let left = |name| element::named(elements, name);
-        let secondary = (0..2)
-            .map(|j| Output::displacement(left(Name::SecondaryVertical(j, 0)).stretch.clone()));
-        let stroke =
-            (0..4).map(|i| Output::displacement(left(Name::PrimaryVertical(i, 0)).stretch.clone()));
+        let secondary = (0..2).map(|j| {
+            Output::displacement(
+                left(Name::of_truck(SECONDARY_VERTICAL, j).on_side(0))
+                    .stretch
+                    .clone(),
+            )
+        });
+        let stroke = (0..4).map(|i| {
+            Output::displacement(
+                left(Name::of_wheelset(PRIMARY_VERTICAL, i).on_side(0))
+                    .stretch
+                    .clone(),
+            )
+        });
         let load = (0..4).map(|i| {
-            let Element { stretch, law, .. } = left(Name::PrimaryVertical(i, 0));
+            let Element { stretch, law, .. } =
+                left(Name::of_wheelset(PRIMARY_VERTICAL, i).on_side(0));
             Output::force(stretch, law.stiffness, law.damping)
         });
         acceleration

@@ -6,6 +6,7 @@ use crate::{
     dynamics::{
         curving::{Breakaway, CurvingError, CurvingModel, Side, WheelForces},
         element::Name,
+        suspension::{PRIMARY_LATERAL, SECONDARY_LATERAL},
     },
     track::curvature_of_degree,
 };
@@ -85,13 +86,13 @@ impl CurvingState {
             truck_yaw: std::array::from_fn(|j| x(10 + j)),
             carbody: std::array::from_fn(|k| x(12 + k)),
             primary_lateral_stroke: std::array::from_fn(|i| {
-                model.stretch_at(Name::PrimaryLateral(i), curvature)
+                model.stretch_at(Name::of_wheelset(PRIMARY_LATERAL, i), curvature)
             }),
             primary_longitudinal_stroke: std::array::from_fn(|i| {
                 model.primary_longitudinal_stroke(curvature, i)
             }),
             secondary_lateral_stroke: std::array::from_fn(|j| {
-                model.stretch_at(Name::SecondaryLateral(j), curvature)
+                model.stretch_at(Name::of_truck(SECONDARY_LATERAL, j), curvature)
             }),
             secondary_yaw_torque: torque,
             breakaway: segment.breakaway,

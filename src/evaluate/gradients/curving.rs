@@ -7,6 +7,7 @@ use crate::{
     dynamics::{
         curving::{CurvingModel, Place, Side},
         element::Name,
+        suspension::SECONDARY_LATERAL,
     },
     evaluate::curving::Limit,
     track::{curvature_of_degree, curvature_per_degree},
@@ -145,7 +146,7 @@ impl<'a> CurvingTangents<'a> {
             CurveChange {
                 wheelset_lateral: std::array::from_fn(|i| self.model.place(&dx, i).y),
                 secondary_lateral_stroke: std::array::from_fn(|j| {
-                    let name = Name::SecondaryLateral(j);
+                    let name = Name::of_truck(SECONDARY_LATERAL, j);
                     let [own] = self.explicit(p, |model| [model.stretch(name, &x, curvature)]);
                     self.model.stretch(name, &dx, further) + own
                 }),

@@ -24,7 +24,7 @@ impl Table {
 /// All of them: those of numbers come from the parts of the case.
 pub static TABLES: LazyLock<Vec<Table>> = LazyLock::new(|| {
     let of_vehicle = |prefix: &'static str| {
-        let tables = vehicle::TABLES.iter();
+        let tables = vehicle::tables();
         tables
             .filter(move |t| t.path.starts_with(prefix))
             .map(|t| table(t.path, t.meaning))
