@@ -47,13 +47,13 @@ pub fn truck_vertical(vehicle: &Vehicle) -> Oscillator {
     )
 }
 
-/// Truck frame roll (3.5-11, 12): k = 4d_p²K_pz + 2d_s²K_sz over I_tx.
+/// Truck frame roll (3.5-11, 12): k = 4d_p²K_pz + 2d_s²K_sz + K_ar over I_tx; the report has no anti-roll bar.
 pub fn truck_roll(vehicle: &Vehicle) -> Oscillator {
     let (p, s) = (&vehicle.suspension.primary, &vehicle.suspension.secondary);
     let d_p2 = vehicle.truck.half_primary_spacing.powi(2);
     let d_s2 = vehicle.truck.half_secondary_spacing.powi(2);
     Oscillator::new(
-        4.0 * d_p2 * p.vertical_stiffness + 2.0 * d_s2 * s.vertical_stiffness,
+        4.0 * d_p2 * p.vertical_stiffness + 2.0 * d_s2 * s.vertical_stiffness + anti_roll(vehicle),
         4.0 * d_p2 * p.c_pz() + 2.0 * d_s2 * s.vertical_damping,
         vehicle.truck.roll_inertia,
     )
@@ -103,14 +103,21 @@ pub fn carbody_vertical(vehicle: &Vehicle) -> Oscillator {
     )
 }
 
-/// Carbody roll about its c.g. (3.5-21, 22): k = 4d_s²K_sz + 4h_cs²K_sy − h_cs W over I_cx, W the
-/// carbody's weight. `None`: the carbody overturns.
+/// K_ar of the leading truck, N m/rad.
+fn anti_roll(vehicle: &Vehicle) -> f64 {
+    vehicle.suspension.anti_roll_bar.unwrap_or(0.0)
+}
+
+/// Carbody roll about its c.g. (3.5-21, 22): k = 4d_s²K_sz + 2K_ar + 4h_cs²K_sy − h_cs W over I_cx, W the
+/// carbody's weight; the report has no anti-roll bar. `None`: the carbody overturns.
 pub fn carbody_roll(vehicle: &Vehicle) -> Option<Oscillator> {
     let s = &vehicle.suspension.secondary;
     let c = &vehicle.carbody;
     let d_s2 = vehicle.truck.half_secondary_spacing.powi(2);
     let h_cs = c.height_above_secondary;
-    let k = 4.0 * d_s2 * s.vertical_stiffness + 4.0 * h_cs * h_cs * s.lateral_stiffness
+    let k = 4.0 * d_s2 * s.vertical_stiffness
+        + 2.0 * anti_roll(vehicle)
+        + 4.0 * h_cs * h_cs * s.lateral_stiffness
         - h_cs * c.mass * GRAVITY;
     let damping = 4.0 * d_s2 * s.vertical_damping + 4.0 * h_cs * h_cs * s.lateral_damping;
     (k > 0.0).then(|| Oscillator::new(k, damping, c.roll_inertia))

@@ -7,12 +7,14 @@
 //! | secondary lateral, truck at ±l_s | y_c ± l_s ψ_c + h_cs φ_c − y_t | row + h_ts φ_t | 2K_sy, 2C_sy |
 //! | secondary roll | φ_c | φ_c − φ_t | 2d_s²K_sz, 2d_s²C_sz |
 //! | secondary yaw | ψ_c − ψ_t | row | K_sψ, C_sψ |
+//! | anti-roll bar | φ_c | φ_c − φ_t | K_ar |
 //! | carbody weight on its springs | φ_c | φ_c | −M_c g h_cs |
 //! | primary roll, truck roll free | φ_t | φ_t − φ_w | 2d_p²K_pz, 2d_p²C_pz |
 //! | weight on the truck, truck roll free | φ_t | φ_t | −(M_c g/2) h_ts − (M_c g/2 + M_t g) h_tp |
 //!
 //! With truck roll free, φ_t is part of the rows just as of the stretches. In the vertical model elements act along
-//! the stretch: secondary ones at (±l_s, ±d_s), primary ones at (±l_s ± b, ±d_p).
+//! the stretch: secondary ones at (±l_s, ±d_s), primary ones at (±l_s ± b, ±d_p), an anti-roll bar along
+//! φ_c + T1 u_1 + T2 u_2 − φ_t.
 
 use super::{
     Row,
@@ -37,6 +39,8 @@ pub const SECONDARY_ROLL: &str = "secondary roll";
 pub const SECONDARY_YAW: &str = "secondary yaw";
 /// One spring.
 pub const SECONDARY_VERTICAL: &str = "secondary vertical";
+/// Between truck frame and carbody.
+pub const ANTI_ROLL_BAR: &str = "anti-roll bar";
 /// Overturning weight of a body on its springs.
 const WEIGHT: &str = "weight";
 
@@ -128,6 +132,19 @@ pub(super) fn lateral(model: &lateral::Builder) -> Vec<Element> {
             elements.push(Element::new(Name::of_truck(WEIGHT, j), phi_t, law));
         }
     }
+    for j in 0..2 {
+        if let Some(stiffness) = model.ends[j].suspension.anti_roll_bar {
+            let (name, free) = (Name::of_truck(ANTI_ROLL_BAR, j), q.phi_t(j).is_some());
+            let stretch = q.phi_c() - model.truck_roll(j);
+            elements.push(element(
+                name,
+                q.phi_c(),
+                stretch,
+                free,
+                Law::new(stiffness, 0.0),
+            ));
+        }
+    }
     let overturning = 2.0 * half_carbody_weight * vehicle.carbody.height_above_secondary;
     let law = Law::new(-overturning, 0.0);
     let overturns = Name {
@@ -167,6 +184,14 @@ pub(super) fn vertical(model: &vertical::Builder) -> Vec<Element> {
                 stretch,
                 law,
             ));
+        }
+    }
+    for j in 0..2 {
+        if let Some(stiffness) = model.ends[j].suspension.anti_roll_bar {
+            let stretch =
+                model.carbody_roll(model.truck_station(j)) - vertical::Builder::truck_roll(j);
+            let name = Name::of_truck(ANTI_ROLL_BAR, j);
+            elements.push(Element::new(name, stretch, Law::new(stiffness, 0.0)));
         }
     }
     elements

@@ -21,17 +21,26 @@ pub struct Suspension {
     pub primary: Primary,
     /// Between truck frames and carbody.
     pub secondary: Secondary,
+    /// K_ar, roll stiffness of the anti-roll bar between truck frame and carbody, per truck, N m/rad;
+    /// `None`: there is no bar.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub anti_roll_bar: Option<f64>,
 }
 
 impl Suspension {
     /// Springs and dampers of both stages, and nothing else.
     pub fn new(primary: Primary, secondary: Secondary) -> Self {
-        Self { primary, secondary }
+        Self {
+            primary,
+            secondary,
+            anti_roll_bar: None,
+        }
     }
 }
 
 /// Tables of the suspension's numbers.
-pub(super) static TABLES: [&Table<Vehicle>; 3] = [&PRIMARY, &SECONDARY, &AIR_SPRING];
+pub(super) static TABLES: [&Table<Vehicle>; 4] =
+    [&PRIMARY, &SECONDARY, &AIR_SPRING, &ANTI_ROLL_BAR];
 
 /// Primary suspension, per corner (4 per truck).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -238,5 +247,15 @@ pub static AIR_SPRING: Table<Vehicle> = Table {
         air!("suspension.secondary.air_spring.series_stiffness", Stiffness, Positive, Required, "air in the bellows, in series with the orifice, per side", series_stiffness),
         air!("suspension.secondary.air_spring.orifice_damping", Damping, NonNegative, Required, "orifice between bellows and reservoir, per side", orifice_damping),
         air!("suspension.secondary.air_spring.reservoir_stiffness", Stiffness, NonNegative, Optional("0"), "air in the reservoir, in parallel with the orifice, per side", reservoir_stiffness),
+    ],
+};
+
+/// Numbers of `[suspension.anti_roll_bar]`.
+#[rustfmt::skip]
+static ANTI_ROLL_BAR: Table<Vehicle> = Table {
+    path: "suspension.anti_roll_bar",
+    meaning: "An anti-roll bar between truck frame and carbody, per truck.",
+    numbers: &[
+        of_end!("suspension.anti_roll_bar.stiffness", "K_ar", RotationalStiffness, NonNegative, Optional("no bar"), "roll stiffness of the anti-roll bar, per truck", suspension.anti_roll_bar, |end| Some(end.suspension.anti_roll_bar.unwrap_or(0.0))),
     ],
 };
