@@ -1,5 +1,6 @@
 //! Is a design the best within its limits, and is what is said of it true?
 
+mod every_number;
 mod freedom;
 mod fronts;
 mod many_conditions;

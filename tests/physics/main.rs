@@ -1,6 +1,7 @@
 //! Do the models keep the laws of mechanics, and do they agree with published numbers?
 
 mod edges;
+mod elements;
 mod identities;
 mod kinematic_damping;
 mod published;
