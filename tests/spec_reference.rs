@@ -3,7 +3,13 @@
 
 use std::{fmt::Write, fs};
 
-use bogie::{case::Case, units::{number::both, Quantity, Range}, index::{Index, Sense}, parameter::Parameter, spec::keys::{self, ENTRIES, Need, TABLES}};
+use bogie::{
+    case::Case,
+    index::{Index, Sense},
+    parameter::Parameter,
+    spec::keys::{self, ENTRIES, Need, TABLES},
+    units::{Quantity, Range, number::both},
+};
 
 /// What a value is, with examples in both unit systems.
 fn kind(quantity: Quantity) -> String {
