@@ -184,7 +184,7 @@ const VERTICAL: [Entry; 8] = [
 /// Secondary suspension of one direction: stiffness and damping `k` and `c`, acceleration and stroke
 /// `desired` and `reached`.
 fn secondary(
-    entries: [Entry; 8],
+    entries: &[Entry; 8],
     mass: f64,
     [k, c]: [f64; 2],
     desired: [Option<f64>; 2],
@@ -204,7 +204,7 @@ fn secondary(
         (Acceleration, reached.map(|[acceleration, _]| acceleration)),
         (Stroke, reached.map(|[_, stroke]| stroke)),
     ];
-    let lines = entries.into_iter().zip(values);
+    let lines = entries.iter().zip(values);
     lines
         .map(|([step, text, symbol], (quantity, value))| line(step, text, symbol, quantity, value))
         .collect()
@@ -215,7 +215,7 @@ fn lateral(result: &DesignResult, demands: &Demands) -> Vec<Line> {
     let s = &vehicle.suspension.secondary;
     let ride = result.evaluation.lateral.as_ref().ok();
     secondary(
-        LATERAL,
+        &LATERAL,
         vehicle.carbody.mass,
         [s.lateral_stiffness, s.lateral_damping],
         [Index::LateralAcceleration, Index::SecondaryLateralStroke].map(|index| demands.get(index)),
@@ -228,7 +228,7 @@ fn vertical(result: &DesignResult, demands: &Demands) -> Vec<Line> {
     let s = &vehicle.suspension.secondary;
     let ride = result.evaluation.vertical.as_ref().ok();
     secondary(
-        VERTICAL,
+        &VERTICAL,
         vehicle.carbody.mass,
         [s.vertical_stiffness, s.vertical_damping],
         [Index::VerticalAcceleration, Index::SecondaryVerticalStroke]

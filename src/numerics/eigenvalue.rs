@@ -5,21 +5,25 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 
 /// Modulus |s|, without the scaling that numbers near the ends of the range would need.
+#[inline]
 pub fn size(s: Complex<f64>) -> f64 {
     s.norm_sqr().sqrt()
 }
 
 /// Frequency |s|/2π in Hz of an eigenvalue.
+#[inline]
 pub fn frequency(s: Complex<f64>) -> f64 {
     size(s) / TAU
 }
 
 /// Damping ratio −Re s/|s| of an eigenvalue.
+#[inline]
 pub fn damping_ratio(s: Complex<f64>) -> f64 {
     -s.re / size(s)
 }
 
 /// Change of the damping ratio with that of the eigenvalue.
+#[inline]
 pub fn damping_ratio_change(s: Complex<f64>, change: Complex<f64>) -> f64 {
     let size = size(s);
     let growth = (s.re * change.re + s.im * change.im) / size;
