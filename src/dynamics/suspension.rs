@@ -46,13 +46,20 @@ const WEIGHT: &str = "weight";
 
 /// Elements of the lateral model.
 pub(super) fn lateral(model: &lateral::Builder) -> Vec<Element> {
-    let (q, vehicle) = (&model.q, model.vehicle);
-    // A roll that the rails prescribe is part of stretches only.
-    let element = |name, row: Row, stretch: Row, free: bool, law| {
-        let row = if free { stretch.clone() } else { row };
-        Element::acting(name, row, stretch, law)
-    };
     let mut elements = Vec::with_capacity(24);
+    add_primary(model, &mut elements);
+    add_secondary(model, &mut elements);
+    elements
+}
+
+/// An element whose stretch holds a truck's roll, which is part of the row only where it is `free`.
+fn with_roll(name: Name, row: Row, stretch: Row, free: bool, law: Law) -> Element {
+    let row = if free { stretch.clone() } else { row };
+    Element::acting(name, row, stretch, law)
+}
+
+fn add_primary(model: &lateral::Builder, elements: &mut Vec<Element>) {
+    let q = &model.q;
     for i in 0..4 {
         let j = i / 2;
         let End {
@@ -65,7 +72,7 @@ pub(super) fn lateral(model: &lateral::Builder) -> Vec<Element> {
             model.primary_lateral_stretch(i),
         );
         let law = Law::new(primary.lateral_stiffness, primary.c_py()).times(2.0);
-        elements.push(element(
+        elements.push(with_roll(
             Name::of_wheelset(PRIMARY_LATERAL, i),
             row,
             stretch,
@@ -88,6 +95,10 @@ pub(super) fn lateral(model: &lateral::Builder) -> Vec<Element> {
             ));
         }
     }
+}
+
+fn add_secondary(model: &lateral::Builder, elements: &mut Vec<Element>) {
+    let (q, vehicle) = (&model.q, model.vehicle);
     let half_carbody_weight = vehicle.carbody.mass * GRAVITY / 2.0;
     for j in 0..2 {
         let End {
@@ -100,7 +111,7 @@ pub(super) fn lateral(model: &lateral::Builder) -> Vec<Element> {
             model.secondary_lateral_stretch(j),
         );
         let law = Law::new(secondary.lateral_stiffness, secondary.lateral_damping).times(2.0);
-        elements.push(element(
+        elements.push(with_roll(
             Name::of_truck(SECONDARY_LATERAL, j),
             row,
             stretch,
@@ -111,7 +122,7 @@ pub(super) fn lateral(model: &lateral::Builder) -> Vec<Element> {
         let stretch = q.phi_c() - model.truck_roll(j);
         let law =
             Law::new(secondary.vertical_stiffness, secondary.vertical_damping).times(2.0 * d_s2);
-        elements.push(element(
+        elements.push(with_roll(
             Name::of_truck(SECONDARY_ROLL, j),
             q.phi_c(),
             stretch,
@@ -136,7 +147,7 @@ pub(super) fn lateral(model: &lateral::Builder) -> Vec<Element> {
         if let Some(stiffness) = model.ends[j].suspension.anti_roll_bar {
             let (name, free) = (Name::of_truck(ANTI_ROLL_BAR, j), q.phi_t(j).is_some());
             let stretch = q.phi_c() - model.truck_roll(j);
-            elements.push(element(
+            elements.push(with_roll(
                 name,
                 q.phi_c(),
                 stretch,
@@ -153,7 +164,6 @@ pub(super) fn lateral(model: &lateral::Builder) -> Vec<Element> {
         side: 0,
     };
     elements.push(Element::new(overturns, q.phi_c(), law));
-    elements
 }
 
 /// Elements of the vertical model.

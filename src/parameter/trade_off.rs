@@ -45,10 +45,11 @@ impl Parameter {
     /// Trade-off that it belongs to: that of the element that it is a constant of. A number of the whole
     /// vehicle acts on all three; it belongs to stability and curving, which is settled between the others.
     pub fn trade_off(self) -> TradeOff {
-        let has = |part: &&str| self.name().contains(*part);
-        if VERTICAL.iter().any(|part| has(part)) {
+        let name = self.name();
+        let has = |parts: &[&str]| parts.iter().any(|part| name.contains(part));
+        if has(&VERTICAL) {
             TradeOff::Vertical
-        } else if LATERAL.iter().any(|part| has(part)) {
+        } else if has(&LATERAL) {
             TradeOff::Lateral
         } else {
             TradeOff::StabilityCurving
