@@ -3,7 +3,7 @@
 //! A [`Figure`] says what is shown: panels with axes, curves, marks and, behind contour lines, the
 //! field on its grid. All its coordinates are in SI units, so what is drawn can be read back.
 //! [`Drawing::new`] lays it out: where each panel's frame is, where each label stands.
-//! [`Drawing::svg`] writes it, for print or for a page; [`png`] makes a picture of it and
+//! [`Drawing::svg`] writes it, for print or for a page; `png` makes a picture of it and
 //! [`table`] the numbers behind it. The [`book`] has one function for every chart of the report.
 //!
 //! ```
