@@ -4,7 +4,7 @@
 //! A number has one row in a table beside the part of the case that holds it ([`crate::vehicle`],
 //! [`crate::wheel_rail`], [`crate::case`]): its path in specs, symbol, quantity, range, meaning, and field. The
 //! registry is composed of these rows. A number of an end of the vehicle has two parameters: that of the leading
-//! end, which the trailing end follows, and the trailing end's own. [`natural`] has other ways to state a
+//! end, which the trailing end follows, and the trailing end's own. `natural.rs` has other ways to state a
 //! constant, as a natural frequency or a damping ratio.
 
 mod case_key;
