@@ -7,6 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::diagnostic::{Diagnostic, MOST, printable, word};
+use crate::parameter::Parameter;
 
 /// A value of the document.
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
@@ -116,10 +117,12 @@ fn unknown(
         .collect();
     let help = if let Some(near) = nearest(written, siblings.iter().copied()) {
         format!("did you mean `{near}`?")
-    } else if elsewhere.is_empty() {
-        format!("known here: {}", siblings.join(", "))
-    } else {
+    } else if !elsewhere.is_empty() {
         format!("`{written}` is a key of {}", elsewhere.join(" and "))
+    } else if let Some(name) = variable(written, parent, paths) {
+        format!("did you mean `{name}`?")
+    } else {
+        format!("known here: {}", siblings.join(", "))
     };
     let written = word(written);
     let is_table = matches!(value.get_ref(), DeValue::Table(_));
@@ -135,6 +138,28 @@ fn unknown(
         _ => format!("not a {what} of [{parent}]"),
     };
     Diagnostic::at(name.span(), message, expected).help(help)
+}
+
+/// The variable in `[design]` that `written` most likely stands for: `carbody_mass` for `vehicle.carbody.mass`, or
+/// the short name of a number that is written there by its path.
+fn variable(written: &str, parent: &str, paths: &[&str]) -> Option<String> {
+    if !format!("{parent}.").starts_with("design.") {
+        return None;
+    }
+    let path = join(parent, written);
+    let path = path.strip_prefix("design.")?;
+    let by_path = Parameter::plain().find(|parameter| {
+        let rest = parameter.key_of_constant().path.strip_prefix(path);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    });
+    if let Some(parameter) = by_path {
+        return Some(parameter.name().to_owned());
+    }
+    let names = paths.iter().filter_map(|path| path.strip_prefix("design."));
+    let plain: Vec<(String, &str)> = names.map(|name| (name.replace('.', "_"), name)).collect();
+    let near = nearest(written, plain.iter().map(|(plain, _)| plain.as_str()))?;
+    let (_, name) = plain.iter().find(|(plain, _)| plain == near)?;
+    Some((*name).to_owned())
 }
 
 /// A name of the author's that results could not carry.
