@@ -76,17 +76,9 @@ impl Vehicle {
     /// W_A = g (M_c/4 + M_t/2 + M_w)
     /// ```
     pub fn axle_load(&self) -> f64 {
-        let leading =
-            GRAVITY * (self.carbody.mass / 4.0 + self.truck.mass / 2.0 + self.wheelset.mass);
-        match &self.trailing {
-            None => leading,
-            Some(trailing) => {
-                let End {
-                    truck, wheelset, ..
-                } = &trailing.end;
-                let load = GRAVITY * (self.carbody.mass / 4.0 + truck.mass / 2.0 + wheelset.mass);
-                f64::midpoint(leading, load)
-            }
+        match self.trailing {
+            None => self.axle_load_of(0),
+            Some(_) => f64::midpoint(self.axle_load_of(0), self.axle_load_of(1)),
         }
     }
 
