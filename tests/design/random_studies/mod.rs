@@ -14,7 +14,7 @@ use bogie::{export::check, spec::Spec};
 use rayon::prelude::*;
 
 /// Random studies: as many as two cores do in a minute.
-const STUDIES: u64 = 2000;
+const STUDIES: u64 = 1200;
 /// One in so many is a front, whose points take more than a design does.
 const FRONTS: u64 = 6;
 /// One in so many is run twice.
