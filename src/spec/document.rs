@@ -110,9 +110,10 @@ fn unknown(
     }
     let elsewhere: Vec<String> = paths
         .iter()
-        .filter(|path| !path.starts_with("trailing.") && !path.starts_with("design.vehicle"))
         .filter_map(|path| path.rsplit_once('.'))
-        .filter(|(_, leaf)| leaf == written)
+        .filter(|(table, leaf)| {
+            leaf == written && !table.starts_with("trailing.") && !table.starts_with("design.")
+        })
         .map(|(table, _)| format!("[{table}]"))
         .collect();
     let help = if let Some(near) = nearest(written, siblings.iter().copied()) {
