@@ -29,10 +29,10 @@ pub struct Element {
 /// Name of an element: its kind, its place, and its side (0 left, 1 right) where both sides have one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Name {
-    /// Kind, in words.
-    pub kind: &'static str,
     /// Place along the vehicle.
     pub place: Place,
+    /// Kind, in words.
+    pub kind: &'static str,
     /// Side.
     pub side: usize,
 }

@@ -69,6 +69,22 @@ impl Vehicle {
         }
     }
 
+    /// Frame of truck j (0 leading, 1 trailing).
+    pub fn truck_at(&self, j: usize) -> &Truck {
+        match &self.trailing {
+            Some(trailing) if j == 1 => &trailing.end.truck,
+            _ => &self.truck,
+        }
+    }
+
+    /// Either wheelset of truck j (0 leading, 1 trailing).
+    pub fn wheelset_at(&self, j: usize) -> Wheelset {
+        match &self.trailing {
+            Some(_) if j == 1 => self.end(1).wheelset,
+            _ => self.wheelset,
+        }
+    }
+
     /// Static vertical load of one axle on the track, N, wheelset included; the mean of both ends where
     /// they differ.
     ///
@@ -84,8 +100,8 @@ impl Vehicle {
 
     /// Static vertical load of an axle of truck j (0 leading, 1 trailing), N.
     pub fn axle_load_of(&self, j: usize) -> f64 {
-        let (carbody, end) = (self.carbody.mass, self.end(j));
-        GRAVITY * (carbody / 4.0 + end.truck.mass / 2.0 + end.wheelset.mass)
+        let (carbody, truck) = (self.carbody.mass, self.truck_at(j).mass);
+        GRAVITY * (carbody / 4.0 + truck / 2.0 + self.wheelset_at(j).mass)
     }
 
     /// Static load of one wheel, N: half the axle load.
@@ -110,12 +126,7 @@ impl Vehicle {
 
     /// Total mass, kg.
     pub fn mass(&self) -> f64 {
-        let end = |j| {
-            let End {
-                truck, wheelset, ..
-            } = self.end(j);
-            truck.mass + 2.0 * wheelset.mass
-        };
+        let end = |j| self.truck_at(j).mass + 2.0 * self.wheelset_at(j).mass;
         self.carbody.mass + (end(0) + end(1))
     }
 
@@ -126,7 +137,7 @@ impl Vehicle {
 
     /// Position of wheelset `i` (0–3 from the front) relative to mid-length, m, forward positive.
     pub fn wheelset_position(&self, i: usize) -> f64 {
-        let b = self.end(i / 2).truck.half_wheelbase;
+        let b = self.truck_at(i / 2).half_wheelbase;
         let l_s = self.carbody.half_truck_spacing;
         let truck = if i < 2 { l_s } else { -l_s };
         truck + if i.is_multiple_of(2) { b } else { -b }

@@ -196,13 +196,19 @@ impl CurvingModel {
 
     /// Stretch of an element at a curvature, 1/m, m or rad.
     pub fn stretch_at(&self, name: Name, curvature: f64) -> f64 {
-        let x = self.segment_at(curvature).displacements(curvature);
-        self.stretch(name, &x, curvature)
+        let segment = self.segment_at(curvature);
+        let (element, offset) = self.element(name);
+        let terms = element.stretch.terms().iter();
+        let coordinates = terms.filter(|(i, _)| *i < self.load.len());
+        let form: f64 = coordinates
+            .map(|&(i, c)| c * segment.displacement(i, curvature))
+            .sum();
+        form + curvature * offset
     }
 
     /// Primary longitudinal stroke of wheelset `i` at a curvature, m: d_p (ψ_t − ψ_w ± b/R).
     pub fn primary_longitudinal_stroke(&self, curvature: f64, i: usize) -> f64 {
-        let d_p = self.vehicle.end(i / 2).truck.half_primary_spacing;
+        let d_p = self.vehicle.truck_at(i / 2).half_primary_spacing;
         d_p * self.stretch_at(Name::of_wheelset(PRIMARY_YAW, i), curvature)
     }
 

@@ -193,8 +193,8 @@ fn form(row: &Row, x: &DVector<f64>) -> f64 {
 /// ΔN = φ_d g [M_c (r0 + h_tp + h_ts + h_cs)/4 + M_t (r0 + h_tp)/2 + M_w r0] / (2a)
 /// ```
 fn load_transfer(vehicle: &Vehicle, j: usize, cant_deficiency: f64) -> f64 {
-    let end = vehicle.end(j);
-    let (c, t, w) = (&vehicle.carbody, &end.truck, &end.wheelset);
+    let wheelset = vehicle.wheelset_at(j);
+    let (c, t, w) = (&vehicle.carbody, vehicle.truck_at(j), &wheelset);
     let truck_height = w.rolling_radius + t.height_above_primary;
     let carbody_height = truck_height + t.depth_below_secondary + c.height_above_secondary;
     let moment =

@@ -158,7 +158,11 @@ impl CurvingModel {
         let segment = self.segment_at(curvature);
         let [zero, slope] = self.creep_forces(segment, i, side);
         let [f_x, f_y] = [0, 1].map(|k| zero[k] + curvature * slope[k]);
-        let place = self.place(&segment.displacements(curvature), i);
+        let of = |coordinate| segment.displacement(self.q.index(coordinate), curvature);
+        let place = Place {
+            y: of(Coordinate::WheelsetLateral(i)),
+            psi: of(Coordinate::WheelsetYaw(i)),
+        };
         WheelForces {
             longitudinal_creep: f_x,
             lateral_creep: f_y,

@@ -76,13 +76,13 @@ impl Coordinate {
 
     /// Its mass or inertia in a vehicle, kg or kg m²; none of an inner point.
     fn mass(self, vehicle: &Vehicle) -> f64 {
-        let (end, carbody) = (|j| vehicle.end(j), &vehicle.carbody);
+        let (truck, carbody) = (|j| vehicle.truck_at(j), &vehicle.carbody);
         match self {
-            Self::WheelsetLateral(i) => end(i / 2).wheelset.mass,
-            Self::WheelsetYaw(i) => end(i / 2).wheelset.yaw_inertia,
-            Self::TruckLateral(j) => end(j).truck.mass,
-            Self::TruckYaw(j) => end(j).truck.yaw_inertia,
-            Self::TruckRoll(j) => end(j).truck.roll_inertia,
+            Self::WheelsetLateral(i) => vehicle.wheelset_at(i / 2).mass,
+            Self::WheelsetYaw(i) => vehicle.wheelset_at(i / 2).yaw_inertia,
+            Self::TruckLateral(j) => truck(j).mass,
+            Self::TruckYaw(j) => truck(j).yaw_inertia,
+            Self::TruckRoll(j) => truck(j).roll_inertia,
             Self::CarbodyLateral => carbody.mass,
             Self::CarbodyYaw => carbody.yaw_inertia,
             Self::CarbodyRoll => carbody.roll_inertia,
@@ -228,7 +228,7 @@ impl Coordinates {
         // Station of the end that a body belongs to, and of the body within it.
         let station = |&(index, _): &(usize, f64)| match self.list[index].body() {
             Body::Wheelset(i) => {
-                let b = vehicle.end(i / 2).truck.half_wheelbase;
+                let b = vehicle.truck_at(i / 2).half_wheelbase;
                 let sign = if i.is_multiple_of(2) { b } else { -b };
                 (if i < 2 { l_s } else { -l_s }, sign)
             }

@@ -368,11 +368,14 @@ fn phases<S: Simd>(
     speed: f64,
     is_regular: bool,
 ) -> [Lanes; 4] {
-    let behind = |from: usize, to: usize| {
-        let angle = mul(simd, omega, &[-(lags[to] - lags[from]) / speed; LANES]);
-        Lanes::on_unit_circle(simd, &angle)
+    // A closure around the whole would be compiled on its own, without the vector unit.
+    let angle = |lag: f64| mul(simd, omega, &[-lag / speed; LANES]);
+    let wheelbase = Lanes::on_unit_circle(simd, &angle(lags[1] - lags[0]));
+    let trucks = Lanes::on_unit_circle(simd, &angle(lags[2] - lags[0]));
+    let trailing = if is_regular {
+        wheelbase
+    } else {
+        Lanes::on_unit_circle(simd, &angle(lags[3] - lags[2]))
     };
-    let (wheelbase, trucks) = (behind(0, 1), behind(0, 2));
-    let trailing = if is_regular { wheelbase } else { behind(2, 3) };
     [Lanes::ONE, wheelbase, trucks, trucks.times(simd, &trailing)]
 }
