@@ -23,7 +23,7 @@ use nalgebra::{DMatrix, DVector};
 use super::{
     Row,
     element::{Element, Name},
-    lateral::{self, Coordinate, Coordinates},
+    lateral::{self, Coordinates},
 };
 use crate::{
     case::{Case, CurvingCreep},
@@ -132,10 +132,8 @@ impl CurvingModel {
 
     /// Place of wheelset `i` in displacements of the model, or in their change.
     pub(crate) fn place(&self, x: &DVector<f64>, i: usize) -> Place {
-        Place {
-            y: x[self.q.index(Coordinate::WheelsetLateral(i))],
-            psi: x[self.q.index(Coordinate::WheelsetYaw(i))],
-        }
+        let [y, psi] = self.q.wheelset(i).map(|index| x[index]);
+        Place { y, psi }
     }
 
     /// Body weights × cant deficiency, outward at each c.g.

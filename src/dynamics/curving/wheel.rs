@@ -12,7 +12,6 @@
 //! laterally and +W_A a δ0 ψ in yaw.
 
 use super::{CurvingModel, Segment};
-use crate::dynamics::lateral::Coordinate;
 
 /// Which wheel of a wheelset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,8 +81,7 @@ impl CurvingModel {
         let w = self.vehicle.wheelset;
         let (a, r0) = (w.half_contact_distance, w.rolling_radius);
         let axle_load = self.vehicle.axle_load_of(i / 2);
-        let y = self.q.index(Coordinate::WheelsetLateral(i));
-        let psi = self.q.index(Coordinate::WheelsetYaw(i));
+        let [y, psi] = self.q.wheelset(i);
         for side in Side::BOTH {
             let (s, c) = (side.sign(), self.contact[i / 2][side as usize]);
             let spin_per_y = c.delta / (a * r0);
@@ -158,11 +156,9 @@ impl CurvingModel {
         let segment = self.segment_at(curvature);
         let [zero, slope] = self.creep_forces(segment, i, side);
         let [f_x, f_y] = [0, 1].map(|k| zero[k] + curvature * slope[k]);
-        let of = |coordinate| segment.displacement(self.q.index(coordinate), curvature);
-        let place = Place {
-            y: of(Coordinate::WheelsetLateral(i)),
-            psi: of(Coordinate::WheelsetYaw(i)),
-        };
+        let displacement = |index| segment.displacement(index, curvature);
+        let [y, psi] = self.q.wheelset(i).map(displacement);
+        let place = Place { y, psi };
         WheelForces {
             longitudinal_creep: f_x,
             lateral_creep: f_y,

@@ -96,6 +96,20 @@ impl Coordinate {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Coordinates {
     list: Vec<Coordinate>,
+    places: Places,
+}
+
+/// Indices of the bodies' coordinates, found once.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+struct Places {
+    y_w: [usize; 4],
+    psi_w: [usize; 4],
+    y_t: [usize; 2],
+    psi_t: [usize; 2],
+    phi_t: Option<[usize; 2]>,
+    y_c: usize,
+    psi_c: usize,
+    phi_c: usize,
 }
 
 impl Coordinates {
@@ -113,7 +127,21 @@ impl Coordinates {
         list.push(Coordinate::CarbodyYaw);
         list.push(Coordinate::CarbodyRoll);
         list.extend(inner.iter().copied().map(Coordinate::Inner));
-        Self { list }
+        let mut places = Places::default();
+        for (index, coordinate) in list.iter().enumerate() {
+            match *coordinate {
+                Coordinate::WheelsetLateral(i) => places.y_w[i] = index,
+                Coordinate::WheelsetYaw(i) => places.psi_w[i] = index,
+                Coordinate::TruckLateral(j) => places.y_t[j] = index,
+                Coordinate::TruckYaw(j) => places.psi_t[j] = index,
+                Coordinate::TruckRoll(j) => places.phi_t.get_or_insert_default()[j] = index,
+                Coordinate::CarbodyLateral => places.y_c = index,
+                Coordinate::CarbodyYaw => places.psi_c = index,
+                Coordinate::CarbodyRoll => places.phi_c = index,
+                Coordinate::Inner(_) => {}
+            }
+        }
+        Self { list, places }
     }
 
     /// Number of coordinates.
@@ -138,17 +166,13 @@ impl Coordinates {
     }
 
     /// Index of a coordinate; `None` if the model does not have it.
-    pub fn find(&self, coordinate: Coordinate) -> Option<usize> {
+    fn find(&self, coordinate: Coordinate) -> Option<usize> {
         self.list.iter().position(|other| *other == coordinate)
     }
 
-    /// Index of a coordinate that every model has.
-    ///
-    /// # Panics
-    ///
-    /// If this one does not have it.
-    pub fn index(&self, coordinate: Coordinate) -> usize {
-        self.find(coordinate).expect("a coordinate of the model")
+    /// Indices of y_w and ψ_w of wheelset `i`.
+    pub fn wheelset(&self, i: usize) -> [usize; 2] {
+        [self.places.y_w[i], self.places.psi_w[i]]
     }
 
     /// Coordinates of the leading end with those of the trailing one.
@@ -164,41 +188,37 @@ impl Coordinates {
         self.list.iter().map(|c| c.mass(vehicle)).collect()
     }
 
-    fn unit(&self, coordinate: Coordinate) -> Row {
-        Row::unit(self.index(coordinate))
-    }
-
     pub(in crate::dynamics) fn y_w(&self, i: usize) -> Row {
-        self.unit(Coordinate::WheelsetLateral(i))
+        Row::unit(self.places.y_w[i])
     }
 
     pub(in crate::dynamics) fn psi_w(&self, i: usize) -> Row {
-        self.unit(Coordinate::WheelsetYaw(i))
+        Row::unit(self.places.psi_w[i])
     }
 
     pub(in crate::dynamics) fn y_t(&self, j: usize) -> Row {
-        self.unit(Coordinate::TruckLateral(j))
+        Row::unit(self.places.y_t[j])
     }
 
     pub(in crate::dynamics) fn psi_t(&self, j: usize) -> Row {
-        self.unit(Coordinate::TruckYaw(j))
+        Row::unit(self.places.psi_t[j])
     }
 
     /// φ_t where truck roll is a degree of freedom.
     pub(in crate::dynamics) fn phi_t(&self, j: usize) -> Option<Row> {
-        self.find(Coordinate::TruckRoll(j)).map(Row::unit)
+        self.places.phi_t.map(|phi_t| Row::unit(phi_t[j]))
     }
 
     pub(in crate::dynamics) fn y_c(&self) -> Row {
-        self.unit(Coordinate::CarbodyLateral)
+        Row::unit(self.places.y_c)
     }
 
     pub(in crate::dynamics) fn psi_c(&self) -> Row {
-        self.unit(Coordinate::CarbodyYaw)
+        Row::unit(self.places.psi_c)
     }
 
     pub(in crate::dynamics) fn phi_c(&self) -> Row {
-        self.unit(Coordinate::CarbodyRoll)
+        Row::unit(self.places.phi_c)
     }
 
     /// Index of y_a at wheelset `i` in [q, u].
