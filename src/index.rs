@@ -297,7 +297,7 @@ impl Index {
     }
 }
 
-/// What is asked of an index.
+/// A demand on an index.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demand {
     /// Of what.

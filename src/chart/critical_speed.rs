@@ -1,4 +1,4 @@
-//! What stiffnesses do to the critical speed (Figures 4.5.8, 4.5.9, 4.5.10 and 4.6.5).
+//! Critical speed against stiffnesses (Figures 4.5.8, 4.5.9, 4.5.10 and 4.6.5).
 
 use std::sync::atomic::{AtomicBool, Ordering};
 

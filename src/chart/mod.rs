@@ -48,7 +48,7 @@ pub struct Entry {
     pub numbers: &'static [&'static str],
     /// Its name.
     pub name: &'static str,
-    /// What it shows.
+    /// Title: the quantity shown.
     pub title: &'static str,
     draw: fn(&Workbook, &Entry) -> Figure,
 }

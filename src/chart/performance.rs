@@ -41,13 +41,13 @@ pub fn vertical_ride(case: &Case) -> Option<VerticalRide> {
     VerticalRide::new(&VerticalModel::new(case), case).ok()
 }
 
-/// What passengers feel laterally, at c.g., front and rear; `None`: unstable at the operating speed.
+/// Lateral ride of passengers, at c.g., front and rear; `None`: unstable at the operating speed.
 pub fn lateral_passengers(case: &Case, model: &LateralModel) -> Option<[PassengerRide; 3]> {
     let poles = Poles::at(&model.forced, case.service.speed).ok()?;
     PassengerRide::lateral(model, case, &poles).ok()
 }
 
-/// What they feel vertically; `None`: the carbody overturns.
+/// Vertical ride of passengers; `None`: the carbody overturns.
 pub fn vertical_passengers(case: &Case) -> Option<[PassengerRide; 3]> {
     let model = VerticalModel::new(case);
     let poles = Poles::at(&model.forced, case.service.speed).ok()?;

@@ -26,7 +26,7 @@ const HIGHEST: f64 = 10.0;
 /// Every how many speeds one is written at the root locus.
 const WRITTEN: u32 = 20;
 
-/// What the panels show.
+/// Contents of the panels.
 struct Shown<'a> {
     book: &'a Workbook<'a>,
     /// Numbers of the speeds, of which some are written at the locus.

@@ -10,7 +10,7 @@ const HALVINGS: u32 = 6;
 /// How far a point may lie off the straight way between its neighbours, over the extent of the
 /// curve: half the width of its line.
 const BEND: f64 = 2e-3;
-/// What remains across the smallest interval is a jump if it is larger than this, over the extent
+/// A change across the smallest interval is a jump if it is larger than this, over the extent
 /// of the curve.
 const JUMP: f64 = 2e-2;
 

@@ -1,4 +1,4 @@
-//! What conicity, stiffness and speed do to primary strokes, wheelset excursions, lateral ride and
+//! Influence of conicity, stiffness and speed on primary strokes, wheelset excursions, lateral ride and
 //! secondary strokes (Figures 4.6.6–4.6.11, 4.6.14–4.6.17).
 
 use super::{Entry, performance::lateral_ride, sweep::Sweep, workbook::Workbook};
@@ -13,7 +13,7 @@ use crate::{
     units::Quantity,
 };
 
-/// What is shown.
+/// Quantity shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Shown {
     /// RMS primary lateral strokes.
@@ -144,7 +144,7 @@ pub(super) fn rms_limit(
 }
 
 impl Over {
-    /// What the chart holds fixed.
+    /// Values that the chart holds fixed.
     fn fixed(self) -> Vec<Parameter> {
         [
             (Self::Conicity, Parameter::CONICITY),

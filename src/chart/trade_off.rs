@@ -143,7 +143,7 @@ pub(super) fn draw(
     figure
 }
 
-/// What the charts of a plane hold fixed and depends on.
+/// Values that the charts of a plane hold fixed.
 fn fixed(plane: Plane) -> &'static [Parameter] {
     match plane {
         Plane::Lateral => &[

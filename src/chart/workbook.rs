@@ -1,4 +1,4 @@
-//! What the charts of one spec share: the case, units, fields that several charts are drawn from.
+//! Data that the charts of one spec share: the case, units, fields that several charts are drawn from.
 
 use std::sync::OnceLock;
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
-/// What the exit codes mean, at the end of every help.
+/// Meaning of the exit codes, at the end of every help.
 pub const EXIT_CODES: &str = "\
 Exit codes:
   0  done
@@ -17,7 +17,7 @@ Exit codes:
 #[derive(Debug, Parser)]
 #[command(version, about, max_term_width = 100)]
 pub struct Arguments {
-    /// What to do.
+    /// The command.
     #[command(subcommand)]
     pub command: Command,
 }
@@ -33,7 +33,7 @@ impl Arguments {
     }
 }
 
-/// What can be done with a spec.
+/// Commands on a spec.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Choose the suspension that is best within the spec's limits

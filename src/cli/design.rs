@@ -157,7 +157,7 @@ pub(super) fn journal(
     })
 }
 
-/// What a user should know of a run beside its result.
+/// Notes of a run beside its result.
 pub(super) fn tell(archive: &Archive) {
     if let Some(error) = archive.journal_error() {
         output::say(format_args!(

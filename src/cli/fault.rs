@@ -16,7 +16,7 @@ static PLACE: Mutex<Option<String>> = Mutex::new(None);
 /// A panic of this thread, or of one that worked for it.
 #[derive(Debug)]
 pub struct Fault {
-    /// What the panic says.
+    /// Message of the panic.
     what: String,
     /// Where in the source it happened, if [`keep_silent`] was called before.
     place: Option<String>,
@@ -62,7 +62,7 @@ fn what(payload: &(dyn Any + Send)) -> String {
 }
 
 impl Fault {
-    /// What the user gets to read.
+    /// Message to the user.
     pub fn message(&self, command: &Command) -> String {
         let place = self.place.as_deref();
         let place = place.map_or_else(String::new, |place| format!(" ({place})"));

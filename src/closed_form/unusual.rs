@@ -21,18 +21,18 @@ pub enum Direction {
     Vertical,
 }
 
-/// What is odd, and what to do about it.
+/// An odd value, with its remedy.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Oddity {
     /// Which springs and dampers.
     pub direction: Direction,
-    /// What is odd.
+    /// The oddity, in words.
     pub message: String,
     /// Why, or what to do.
     pub advice: &'static str,
 }
 
-/// What is odd about the secondary suspension of a vehicle.
+/// Oddities of the secondary suspension of a vehicle.
 pub fn secondary_oddities(vehicle: &Vehicle) -> Vec<Oddity> {
     let mass = vehicle.carbody.mass;
     let s = &vehicle.suspension.secondary;

@@ -279,7 +279,7 @@ impl Study {
         self.conditions[condition].as_ref().map(|c| c.name.as_str())
     }
 
-    /// What a piece is called, whatever its condition.
+    /// Name of a piece, whatever its condition.
     pub fn piece_words(&self, index: usize) -> String {
         let term = &self.terms[self.term_of(index)];
         let name = term.index.words();

@@ -1,4 +1,4 @@
-//! What a design is certified by, in words: how the search ended, what each limit costs, which
+//! Certificate of a design, in words: how the search ended, what each limit costs, which
 //! demands conflict, what the joint optimisation gained.
 
 use super::{design_text::trade_off, sheet::Sheet, status};
@@ -183,7 +183,7 @@ pub(crate) fn margins(sheet: &mut Sheet, result: &DesignResult) {
     );
 }
 
-/// What is reached in SI and US units, or that nothing is, and why. A critical speed at an end of the
+/// Value reached, in SI and US units, or the reason why there is none. A critical speed at an end of the
 /// `range` searched, m/s, lies beyond it.
 pub(crate) fn reached(
     index: Index,

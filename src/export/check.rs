@@ -1,4 +1,4 @@
-//! What `bogie check` answers.
+//! Answer of `bogie check`.
 
 use serde_json::{Value, json};
 

@@ -11,7 +11,7 @@ use crate::{
     track::curvature_of_degree,
 };
 
-/// What `bogie curve` shows.
+/// Result of `bogie curve`.
 #[derive(Debug, Clone)]
 pub struct Curving {
     /// Which curve is shown.

@@ -179,7 +179,7 @@ fn bands(points: &[PassengerRide; 3]) -> Bands {
     }
 }
 
-/// What both directions have in common; `weightings` are those of ISO 2631-1 and EN 12299.
+/// Entries that both directions have; `weightings` are those of ISO 2631-1 and EN 12299.
 fn passengers(
     ride: &[PassengerRide; 3],
     average: f64,

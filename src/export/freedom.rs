@@ -40,14 +40,14 @@ pub(crate) fn delivered(result: &DesignResult, space: &DesignSpace) -> String {
     format!("Design delivered: {which} within {within} of the optimum")
 }
 
-/// What the design delivered loses against the optimum, goal by goal.
+/// Loss of the design delivered against the optimum, goal by goal.
 pub(crate) fn losses(result: &DesignResult) -> Option<String> {
     let name = |loss: &Loss| format!("{} {}", loss.goal, unsigned_percent(100.0 * loss.share));
     let names: Vec<String> = result.losses.iter().map(name).collect();
     (!names.is_empty()).then(|| format!("loss against the optimum: {}", names.join(", ")))
 }
 
-/// What the ranges are.
+/// Meaning of the ranges, in words.
 pub(crate) fn meaning(space: &DesignSpace) -> String {
     format!(
         "free: where a design keeps all demands and loses at most {} of each goal, the other variables \

@@ -58,7 +58,7 @@ impl Sheet {
         });
     }
 
-    /// What is on the page below its title.
+    /// Body of the page, below its title.
     pub fn blocks(&self) -> &[Block] {
         &self.blocks
     }

@@ -107,7 +107,7 @@ impl Scale {
 /// An axis of a panel.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Axis {
-    /// What is measured.
+    /// Quantity along the axis.
     pub title: String,
     /// Its symbol, with subscripts as in `K_py`; may be empty.
     pub symbol: String,

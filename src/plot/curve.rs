@@ -20,7 +20,7 @@ pub enum Labels {
 /// A curve.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Curve {
-    /// What is written at it, with subscripts as in `K_py`; may be empty.
+    /// Label, with subscripts as in `K_py`; may be empty.
     pub label: String,
     /// Value of the family's parameter, SI.
     pub value: Option<f64>,
@@ -95,7 +95,7 @@ impl Curve {
 pub struct Family {
     /// Name in style classes and files.
     pub id: String,
-    /// What the legend says of the family; empty: nothing.
+    /// Entry of the family in the legend; empty: none.
     pub title: String,
     /// Look of its curves.
     pub stroke: Stroke,

@@ -23,7 +23,7 @@ pub struct Figure {
     pub columns: usize,
     /// Height of a panel over that of the usual one.
     pub height: f64,
-    /// What a reader must know, below the chart.
+    /// Note below the chart.
     pub notes: Vec<String>,
 }
 
@@ -101,7 +101,7 @@ impl Figure {
 pub struct Panel {
     /// Name within the figure, in files and identifiers; empty for a panel alone.
     pub id: String,
-    /// What it shows; may be empty.
+    /// Title; may be empty.
     pub title: String,
     /// Horizontal axis.
     pub x: Axis,
@@ -117,7 +117,7 @@ pub struct Panel {
     pub marks: Vec<Mark>,
     /// Symbols that the legend explains; where they stand does not matter.
     pub keys: Vec<Mark>,
-    /// What contour lines were drawn from.
+    /// Field behind the contour lines.
     pub field: Option<Field>,
 }
 

@@ -9,7 +9,7 @@ use super::Ink;
 pub struct PlacedLabel {
     /// Number of its panel.
     pub panel: usize,
-    /// What is written.
+    /// Text.
     pub text: String,
     /// Its middle, px.
     pub centre: [f64; 2],

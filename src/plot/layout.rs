@@ -49,7 +49,7 @@ pub(super) struct Written {
 /// A figure laid out.
 #[derive(Debug, Clone)]
 pub struct Drawing<'a> {
-    /// What is shown.
+    /// The figure.
     pub figure: &'a Figure,
     /// Width of the drawing, px.
     pub width: f64,

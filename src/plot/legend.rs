@@ -15,7 +15,7 @@ pub(super) struct Entry {
     pub at: [f64; 2],
 }
 
-/// What an entry of the legend shows.
+/// Sample of an entry of the legend.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Look {
     Line(Stroke, bool),

@@ -31,7 +31,7 @@ pub struct Mark {
     pub symbol: Symbol,
     /// Colour.
     pub ink: Ink,
-    /// What is written at it; may be empty.
+    /// Label; may be empty.
     pub label: String,
 }
 
@@ -71,7 +71,7 @@ pub struct Limit {
     pub value: f64,
     /// Whether smaller values are forbidden; otherwise greater ones are.
     pub at_least: bool,
-    /// What is written at it.
+    /// Label.
     pub label: String,
 }
 
@@ -82,6 +82,6 @@ pub struct Shade {
     pub axis: Direction,
     /// From where to where, SI.
     pub range: [f64; 2],
-    /// What is written in it; may be empty.
+    /// Label within it; may be empty.
     pub label: String,
 }

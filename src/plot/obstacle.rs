@@ -1,4 +1,4 @@
-//! What labels must keep clear of: lines and points.
+//! Obstacles of labels: lines and points.
 
 use super::{Direction, Frame, Ink, Limit, Panel, PlacedLabel, Symbol, polyline::visible};
 

@@ -1,10 +1,10 @@
-//! What the style classes of a drawing look like.
+//! Style classes of a drawing.
 
 use std::fmt::Write;
 
 use super::{Dash, Ink, Weight, font, layout::size};
 
-/// What a drawing is for.
+/// Purpose of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Theme {
     /// A file of its own, for print: black on white.

@@ -7,7 +7,7 @@ use super::Scale;
 pub struct Tick {
     /// Value in the unit of the axis.
     pub value: f64,
-    /// What is written at it, with powers of ten as in `2×10^5`; `None` for a minor tick.
+    /// Label, with powers of ten as in `2×10^5`; `None` for a minor tick.
     pub label: Option<String>,
     /// Whether a stronger grid line belongs to it.
     pub major: bool,

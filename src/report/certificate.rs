@@ -1,4 +1,4 @@
-//! What a design is certified by, in words.
+//! Certificate of a design, in words.
 
 use maud::{Markup, html};
 
@@ -43,7 +43,7 @@ pub fn certificate(report: &Report) -> Markup {
     }
 }
 
-/// What the performance is sensitive to; nothing where it was not looked into.
+/// Parameters to which the performance is sensitive; empty where this was not looked into.
 pub fn matters(report: &Report) -> Markup {
     let Some(matters) = report.matters else {
         return html! {};

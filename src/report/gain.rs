@@ -1,4 +1,4 @@
-//! What a design reaches in the indices that are traded off, beside what was given.
+//! Values that a design reaches in the indices that are traded off, beside what was given.
 
 use maud::{Markup, html};
 
@@ -30,7 +30,7 @@ fn headline(report: &Report) -> Vec<Index> {
     indices
 }
 
-/// What the design reaches, and by how much that is better or worse than as given.
+/// Values that the design reaches, with their gain or loss against the design as given.
 pub fn gain(report: &Report) -> Markup {
     html! {
         (reached(report))
@@ -82,7 +82,7 @@ fn reached(report: &Report) -> Markup {
     }
 }
 
-/// What the design as given does not meet: what is worse than it may be so for that.
+/// Demands that the design as given does not meet: a loss against it may have that reason.
 fn given(report: &Report) -> Markup {
     let spec = report.spec;
     let margins = margins(&spec.case, &spec.demands, &spec.conditions);

@@ -29,7 +29,7 @@ use crate::{
     spec::Spec,
 };
 
-/// What a report shows.
+/// Contents of a report.
 #[derive(Debug, Clone, Copy)]
 pub struct Report<'a> {
     /// Name of the spec.
@@ -46,7 +46,7 @@ pub struct Report<'a> {
     pub result: &'a DesignResult,
     /// Whether the design was searched for; otherwise it is the spec's as it stands.
     pub designed: bool,
-    /// What the performance is sensitive to.
+    /// Parameters to which the performance is sensitive.
     pub matters: Option<&'a Sensitivity>,
     /// The front that the spec asks for.
     pub front: Option<&'a Front>,

@@ -1,4 +1,4 @@
-//! What is asked: service, requirements and limits, objective, what may vary, conditions.
+//! The task: service, requirements and limits, objective, what may vary, conditions.
 
 use maud::{Markup, html};
 
@@ -89,7 +89,7 @@ fn demands(caption: &str, demands: &Demands) -> Markup {
     table(caption, &columns, &rows)
 }
 
-/// What may vary, within which bounds.
+/// Variables with their bounds.
 fn freedom(report: &Report) -> Markup {
     let mut rows = Vec::new();
     for (parameter, freedom) in &report.spec.design.parameters {

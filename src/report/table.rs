@@ -82,7 +82,7 @@ fn verdict(cell: &str) -> &'static str {
     }
 }
 
-/// What a text page says, as HTML. `caption` names its tables.
+/// A text page as HTML. `caption` names its tables.
 pub fn blocks(sheet: &Sheet, caption: &str) -> Markup {
     // A table is named by the heading above it.
     let named = sheet.blocks().iter().scan(caption, |section, block| {

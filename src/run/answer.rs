@@ -16,7 +16,7 @@ use crate::{
 /// A result with the input that it comes from.
 #[derive(Debug, Clone)]
 pub struct Answer<'a, T> {
-    /// What was asked about.
+    /// Subject of the question.
     pub input: &'a Input,
     /// The result.
     pub result: T,

@@ -20,7 +20,7 @@ pub struct Input {
     pub source: String,
     /// SHA-256 of the text, hexadecimal.
     pub digest: String,
-    /// What is doubtful in the spec, a sentence each.
+    /// Doubts about the spec, a sentence each.
     pub doubts: Vec<String>,
     /// Whether [`Input::search_thoroughly`] was called: a journal belongs to one or the other.
     pub(super) thorough: bool,

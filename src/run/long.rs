@@ -1,4 +1,4 @@
-//! What takes many evaluations: a design, a front, a sensitivity analysis, many designs.
+//! Answers that take many evaluations: a design, a front, a sensitivity analysis, many designs.
 
 use std::path::Path;
 
@@ -61,7 +61,7 @@ impl Journaled<'_> {
         }
     }
 
-    /// What a journal must belong to: all that decides the run but the budget, which may be raised.
+    /// Identity of a run, to which a journal must belong: all that decides the run but the budget, which may be raised.
     fn header(self, input: &Input) -> Header {
         let Input { spec, digest, .. } = input;
         let names = |indices: &[Index]| {
@@ -146,7 +146,7 @@ impl<'a> Run<'a> {
         Ok(self.answer(pareto::pareto(&self.input.spec, archive)))
     }
 
-    /// What varies in a sensitivity analysis: what the spec leaves open between its bounds, and the
+    /// Factors of a sensitivity analysis: parameters that the spec leaves open, between their bounds, and the
     /// other inputs by `spread` either way, relative.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! What a user asks of a spec, from its text to a result in any form, without terminal.
+//! Questions that a user asks of a spec, from its text to a result in any form, without terminal.
 //!
 //! [`Input::read`] reads the spec and notes its doubts. A [`Run`] answers one request: it evaluates
 //! the design as given, designs and then screens what matters to the design, traces a front. Long

@@ -13,12 +13,12 @@ use crate::{
     report::{Report, charts, page},
 };
 
-/// What a page shows besides the spec.
+/// Contents of a page besides the spec.
 #[derive(Debug, Clone, Copy)]
 pub struct Page<'a> {
     /// The design.
     pub design: &'a DesignResult,
-    /// What matters to a design that was searched for; `None`: it is the spec's as it stands.
+    /// Parameters that matter to a design that was searched for; `None`: it is the spec's as it stands.
     pub matters: Option<&'a Sensitivity>,
     /// The front that the spec asks for.
     pub front: Option<&'a Front>,

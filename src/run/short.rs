@@ -1,4 +1,4 @@
-//! What is answered at once: the design as it stands.
+//! Answers that are had at once: the design as it stands.
 
 use super::{Answer, Run};
 use crate::{

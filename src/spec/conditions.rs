@@ -23,11 +23,11 @@ use crate::track::Track;
 pub struct Condition {
     /// Its name.
     pub name: String,
-    /// What it replaces, by path, SI.
+    /// Values that it replaces, by path, SI.
     pub values: Vec<(&'static str, f64)>,
     /// Its track, if it has its own.
     pub track: Option<Track>,
-    /// What is asked in it, where that differs.
+    /// Demands in it, where they differ.
     pub demands: Demands,
 }
 

@@ -1,4 +1,4 @@
-//! What is asked of a design: `[objective]`, `[requirements]`, `[limits]` and `[pareto]`.
+//! Demands on a design: `[objective]`, `[requirements]`, `[limits]` and `[pareto]`.
 
 use toml::de::DeValue;
 
@@ -20,7 +20,7 @@ pub struct Goal {
     pub weight: f64,
 }
 
-/// What a front trades off.
+/// Indices that a front trades off, with its points and bounds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Front {
     /// Whether the spec has a table of it, so that one belongs to a report.

@@ -1,4 +1,4 @@
-//! What may vary: `[design]`.
+//! The design space: `[design]`.
 
 use toml::de::DeValue;
 
@@ -32,7 +32,7 @@ impl From<Interval> for [f64; 2] {
     }
 }
 
-/// What the search may do with a parameter. SI units.
+/// Freedom of a parameter in the search. SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Freedom {
     /// Anything between bounds.
@@ -72,7 +72,7 @@ pub enum Prefer {
     Optimum,
 }
 
-/// What the design may vary. Parameters that are not listed keep the value of the case.
+/// Design space. Parameters that are not listed keep the value of the case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DesignSpace {
     /// In the order of [`Parameter::all`].
@@ -113,7 +113,7 @@ impl DesignSpace {
         all.into_iter()
     }
 
-    /// What may be done with a parameter.
+    /// Freedom of a parameter.
     pub fn freedom(&self, parameter: Parameter) -> Option<&Freedom> {
         self.parameters
             .iter()

@@ -10,9 +10,9 @@ use annotate_snippets::{AnnotationKind, Level, Origin, Renderer, Snippet};
 pub struct Diagnostic {
     /// Where it stands, in bytes of the source; `None` if it is something missing altogether.
     pub span: Option<Range<usize>>,
-    /// What is wrong.
+    /// The mistake.
     pub message: String,
-    /// What was expected.
+    /// The expectation.
     pub expected: String,
     /// How to put it right, where that is known.
     pub help: Option<String>,
@@ -97,7 +97,7 @@ impl Diagnostics {
     }
 }
 
-/// What is lawful in a spec but hardly meant, in the order of its lines.
+/// Doubts: lawful in a spec but hardly meant, in the order of its lines.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Doubts(Vec<Diagnostic>);
 

@@ -23,17 +23,17 @@ pub const STARTER: &str = include_str!("starter.toml");
 pub struct Spec {
     /// The vehicle as it stands, its use, and the models' options.
     pub case: Case,
-    /// What may vary.
+    /// Design space.
     pub design: DesignSpace,
-    /// What is to be as good as can be; none: the report's own objectives, one per trade-off.
+    /// Goals; none: the report's own objectives, one per trade-off.
     pub objective: Vec<Goal>,
     /// Requirements and limits.
     pub demands: Demands,
     /// Further operating conditions in which they hold.
     pub conditions: Vec<Condition>,
-    /// What a front trades off.
+    /// Indices that a front trades off.
     pub front: Front,
-    /// What is lawful in it but hardly meant.
+    /// Doubts: lawful but hardly meant.
     pub doubts: Doubts,
 }
 
@@ -111,7 +111,7 @@ impl Spec {
     }
 }
 
-/// What is wrong with a file as a whole.
+/// A mistake of a file as a whole.
 fn refuse(message: String, expected: &str, help: Option<&str>) -> Diagnostics {
     Diagnostics::new(vec![Diagnostic {
         span: None,

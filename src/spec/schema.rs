@@ -17,7 +17,7 @@ use crate::index::{Index, Sense};
 use crate::parameter::Parameter;
 use crate::track::Track;
 use crate::units::{Quantity, Range};
-use values::{Described, definitions, described, described_key, interval, number};
+use values::{definitions, described, described_key, interval, number};
 
 /// The schema.
 pub fn schema() -> Value {
@@ -132,24 +132,10 @@ fn entry(path: &str) -> Value {
             keys::CONICITY => Range::Positive,
             _ => key.range,
         };
-        let described = Described {
-            symbol: key.symbol,
-            quantity: key.quantity,
-            meaning: key.meaning,
-            range: key.range,
-            need: key.need,
-        };
-        return described_key(number(key.quantity, range), &described);
+        return described_key(number(key.quantity, range), &key.into());
     }
     if let Some(key) = keys::RANGES.iter().find(|key| key.path == path) {
-        let described = Described {
-            symbol: key.symbol,
-            quantity: key.quantity,
-            meaning: key.meaning,
-            range: key.range,
-            need: key.need,
-        };
-        return described_key(interval(key.quantity, key.range), &described);
+        return described_key(interval(key.quantity, key.range), &key.into());
     }
     if let Some(option) = keys::OPTIONS.iter().find(|option| option.path == path) {
         return json!({
@@ -167,7 +153,7 @@ fn entry(path: &str) -> Value {
     own_form(path)
 }
 
-/// What `[design]` may do with a parameter.
+/// Forms of a parameter in `[design]`.
 fn freedom(parameter: Parameter) -> Value {
     let (quantity, range) = (parameter.quantity(), parameter.range());
     let ties: Vec<&str> = Parameter::of_table()

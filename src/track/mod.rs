@@ -20,7 +20,7 @@ use serde::Serialize;
 pub struct Track {
     /// Name in the spec and in results.
     pub name: String,
-    /// What the numbers rest on.
+    /// Source of the numbers.
     pub source: String,
     /// Vertical profile, mean of the two rails, m²/(rad/m).
     pub vertical: Spectrum,

@@ -1,4 +1,4 @@
-//! What can be wrong with a value and its unit.
+//! Mistakes in a value and its unit.
 
 use super::Quantity;
 
@@ -22,7 +22,7 @@ pub enum UnitError {
     Unknown {
         /// As written.
         symbol: String,
-        /// What may have been meant.
+        /// Unit that may have been meant.
         nearest: Option<&'static str>,
     },
     /// A pound that may be a force or a mass.
@@ -36,9 +36,9 @@ pub enum UnitError {
     Dimension {
         /// The unit as written.
         unit: String,
-        /// What it measures.
+        /// Quantity that the unit measures.
         found: String,
-        /// What was asked for.
+        /// Quantity asked for.
         expected: Quantity,
     },
     /// A dimensionless value in quotes.

@@ -130,7 +130,7 @@ fn number_length(text: &str) -> usize {
     end
 }
 
-/// What a power without `^` begins with.
+/// Characters with which a power without `^` begins.
 const RAISED: [char; 5] = ['⁻', '¹', '²', '³', '⁴'];
 
 struct Parser<'a> {

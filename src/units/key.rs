@@ -62,7 +62,7 @@ pub struct Number<T: 'static> {
 pub struct Table<T: 'static> {
     /// Path.
     pub path: &'static str,
-    /// What stands in it.
+    /// Contents in words.
     pub meaning: &'static str,
     /// Its numbers.
     pub numbers: &'static [Number<T>],

@@ -165,7 +165,7 @@ impl Quantity {
         self.row().examples
     }
 
-    /// What is expected where this quantity stands in a spec.
+    /// Expectation where this quantity stands in a spec.
     pub fn expectation(self) -> String {
         let Row { name, examples, .. } = self.row();
         let [si, us] = examples;

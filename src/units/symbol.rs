@@ -56,7 +56,7 @@ const PREFIXES: [(char, f64); 9] = [
     ('μ', 1e-6), // Greek mu
 ];
 
-/// What people write, and what is meant.
+/// Usual spellings, with the unit meant.
 const ADVICE: [(&str, &str); 14] = [
     ("sec", "s"),
     ("foot", "ft"),

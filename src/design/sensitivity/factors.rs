@@ -1,4 +1,4 @@
-//! What varies in a sensitivity analysis, and the case at a point of it.
+//! Factors of a sensitivity analysis, and the case at a point of it.
 
 use crate::{
     case::Case,

@@ -1,4 +1,4 @@
-//! What an index is to a study, and how its values count.
+//! Role of an index in a study, and how its values count.
 
 use crate::{
     design::measure::Wanted,
@@ -12,7 +12,7 @@ pub const DAMPING: f64 = 3.0;
 /// Share of a bound below which a value counts as that share.
 const LEAST: f64 = 1e-9;
 
-/// What an index is to a study.
+/// Role of an index in a study.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Role {
     /// Part of objective number `group`: the worst of a group counts, the groups add up.
@@ -49,7 +49,7 @@ pub struct Term {
     pub condition: usize,
     /// Which index.
     pub index: Index,
-    /// What for.
+    /// Its role.
     pub role: Role,
     /// Pieces that count; `None`: all.
     pub only: Option<&'static [usize]>,

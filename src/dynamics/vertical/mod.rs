@@ -78,7 +78,7 @@ pub enum Coordinate {
 }
 
 impl Coordinate {
-    /// What the coordinate at `index` is.
+    /// The coordinate at `index`.
     pub fn at(index: usize) -> Self {
         match index {
             0 => Self::CarbodyHeave,

@@ -1,4 +1,4 @@
-//! What `bogie curve` shows, as text.
+//! Result of `bogie curve` as text.
 
 use super::{Curving, breakaway};
 use crate::{

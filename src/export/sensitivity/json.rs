@@ -110,7 +110,7 @@ fn effect_json(path: &str, effects: &Effects, factor: usize) -> Value {
     }
 }
 
-/// What the numbers are of.
+/// Kind of numbers.
 fn of(index: Index) -> &'static str {
     match index.scale() {
         Scale::Logarithmic => "ln of the index in SI units",

@@ -19,7 +19,7 @@ use super::Spec;
 use super::diagnostic::{Diagnostic, Doubts};
 use super::document::Document;
 
-/// What is doubtful in a spec without mistakes.
+/// Doubts about a spec without mistakes.
 pub(super) fn doubts(spec: &Spec, document: &Document, situations: &[Situation]) -> Doubts {
     let mut doubts: Vec<Diagnostic> = Vec::new();
     for situation in situations {

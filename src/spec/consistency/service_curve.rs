@@ -1,4 +1,4 @@
-//! What is asked in the service curve where no condition gives one.
+//! Demands in the service curve where no condition gives one.
 
 use super::situation::Situation;
 use crate::index::Index;

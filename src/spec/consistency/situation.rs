@@ -14,9 +14,9 @@ use crate::units::Quantity;
 pub struct Situation<'d> {
     /// The case.
     pub case: Case,
-    /// What is asked in it.
+    /// Demands in it.
     pub demands: Demands,
-    /// What this condition itself says.
+    /// Entries of this condition itself.
     pub document: &'d Document<'d>,
     /// The condition; `None` for the nominal one.
     pub condition: Option<&'d Condition>,

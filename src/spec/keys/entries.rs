@@ -5,11 +5,11 @@
 pub struct Entry {
     /// Path in the spec.
     pub path: &'static str,
-    /// What it means.
+    /// Meaning in words.
     pub meaning: &'static str,
     /// The form, in words or as an example.
     pub form: &'static str,
-    /// What holds without it.
+    /// Default, in words.
     pub default: &'static str,
 }
 

@@ -10,7 +10,7 @@ use crate::units::Quantity;
 pub struct Choice {
     /// Path in the spec.
     pub path: &'static str,
-    /// What it chooses.
+    /// Meaning in words.
     pub meaning: &'static str,
     /// The names.
     pub names: &'static [&'static str],

@@ -9,7 +9,7 @@ use crate::{case::SERVICE, vehicle, wheel_rail::WHEEL_RAIL};
 pub struct Table {
     /// Path.
     pub path: &'static str,
-    /// What stands in it.
+    /// Contents in words.
     pub meaning: &'static str,
 }
 

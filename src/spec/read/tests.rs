@@ -351,7 +351,7 @@ fn coefficients_of_a_condition_lift_the_bound_of_its_conicity() {
     assert!(Spec::parse(&source(&creep[1..], &geometry)).is_err());
 }
 
-/// What `[design]` sets is for the design; the vehicle as given keeps its own.
+/// A value in `[design]` is for the design; the vehicle as given keeps its own.
 #[test]
 fn a_plain_value_in_the_design_stands_beside_the_vehicles_own() {
     let source = "[suspension.primary]\nlateral_stiffness = \"7.3 MN/m\"\n[design]\n";

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::capital;
-use crate::spec::keys::Need;
+use crate::spec::keys::{CaseKey, Key, Need};
 use crate::units::{LONGEST, Quantity, Range, pattern};
 
 /// Names of the definitions of a value with its unit, of any sign and above zero.
@@ -73,6 +73,30 @@ pub struct Described {
     pub meaning: &'static str,
     pub range: Range,
     pub need: Need,
+}
+
+impl From<&CaseKey> for Described {
+    fn from(key: &CaseKey) -> Self {
+        Self {
+            symbol: key.symbol,
+            quantity: key.quantity,
+            meaning: key.meaning,
+            range: key.range,
+            need: key.need,
+        }
+    }
+}
+
+impl<T, V> From<&Key<T, V>> for Described {
+    fn from(key: &Key<T, V>) -> Self {
+        Self {
+            symbol: key.symbol,
+            quantity: key.quantity,
+            meaning: key.meaning,
+            range: key.range,
+            need: key.need,
+        }
+    }
 }
 
 /// `schema` with the meaning of a key, its range and its default.
