@@ -9,5 +9,5 @@ mod pattern;
 mod stiffness;
 
 pub use lanes::{LANES, Lanes, Reals};
-pub use pattern::ALL;
+pub use pattern::{ALL, CoordinateSet, MOST};
 pub use stiffness::{Factors, Stiffness};

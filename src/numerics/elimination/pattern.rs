@@ -22,8 +22,14 @@ pub struct Pattern {
     count: usize,
 }
 
+/// A set of coordinates, as bits.
+pub type CoordinateSet = u64;
+
+/// Most coordinates that an elimination holds.
+pub const MOST: usize = CoordinateSet::BITS as usize;
+
 /// All coordinates, as bits.
-pub const ALL: u32 = u32::MAX;
+pub const ALL: CoordinateSet = CoordinateSet::MAX;
 
 /// Square of the ratio of a pivot to its original diagonal entry below which digits count as lost: ten of
 /// sixteen remain.
@@ -51,16 +57,17 @@ struct Pivot {
 // Compiled into the caller, where the vector unit is known.
 #[allow(clippy::inline_always)]
 impl Pattern {
-    /// The elimination of matrices of order `n`, at most 32, with nonzeros on the diagonal and at some
+    /// The elimination of matrices of order `n`, at most [`MOST`], with nonzeros on the diagonal and at some
     /// rows and columns.
     pub fn new(n: usize, filled: impl Iterator<Item = (usize, usize)>) -> Self {
         // Columns of the nonzeros of each row, and rows of those of each column, as bits.
-        let (mut rows, mut columns) = ([0_u32; 32], [0_u32; 32]);
+        let (mut rows, mut columns): ([CoordinateSet; MOST], [CoordinateSet; MOST]) =
+            ([0; MOST], [0; MOST]);
         for (i, j) in filled.chain((0..n).map(|i| (i, i))) {
             rows[i] |= 1 << j;
             columns[j] |= 1 << i;
         }
-        let mut rest = u32::MAX >> (32 - n);
+        let mut rest = ALL >> (MOST - n);
         let mut steps = Vec::with_capacity(n);
         while rest != 0 {
             let others = |k: usize| rest & !(1 << k);
@@ -101,7 +108,7 @@ impl Pattern {
         pattern
     }
 
-    fn add_pivot(&mut self, k: usize, below: u32, right: u32) {
+    fn add_pivot(&mut self, k: usize, below: CoordinateSet, right: CoordinateSet) {
         let n = self.order;
         let (l, u, x) = (self.lower.len(), self.upper.len(), self.updates.len());
         let slots = &self.slots;
@@ -201,7 +208,7 @@ impl Pattern {
     /// x ← A⁻¹ x with the factors of [`Pattern::factor`], where only coordinates whose bits are set in
     /// `moved` are not zero, before and after.
     #[inline(always)]
-    pub fn solve<S: Simd>(&self, simd: S, a: &[Lanes], x: &mut [Lanes], moved: u32) {
+    pub fn solve<S: Simd>(&self, simd: S, a: &[Lanes], x: &mut [Lanes], moved: CoordinateSet) {
         let moves = |pivot: &&Pivot| moved & (1 << pivot.coordinate) != 0;
         for pivot in self.pivots.iter().filter(moves) {
             let known = x[pivot.coordinate];
@@ -243,7 +250,7 @@ impl Pattern {
 }
 
 /// Numbers of the bits that are set.
-fn bits(mut mask: u32) -> impl Iterator<Item = usize> {
+fn bits(mut mask: CoordinateSet) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         (mask != 0).then(|| {
             let bit = mask.trailing_zeros();

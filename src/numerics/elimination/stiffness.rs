@@ -4,7 +4,7 @@ use pulp::Simd;
 
 use super::{
     lanes::{LANES, Lanes, Reals, div, mul, mul_add},
-    pattern::Pattern,
+    pattern::{CoordinateSet, Pattern},
 };
 use crate::numerics::LinearSystem;
 
@@ -177,7 +177,7 @@ impl Stiffness {
     }
 
     /// Coordinates that move when those in `by` do, all as bits.
-    pub fn moved(&self, by: u32) -> u32 {
+    pub fn moved(&self, by: CoordinateSet) -> CoordinateSet {
         let (mut moved, mut before) = (by, 0);
         while moved != before {
             before = moved;
@@ -192,7 +192,13 @@ impl Stiffness {
 
     /// x ← D⁻¹ x, where only coordinates whose bits are set in `moved` move.
     #[inline(always)]
-    pub fn solve<S: Simd>(&self, simd: S, factors: &Factors, x: &mut [Lanes], moved: u32) {
+    pub fn solve<S: Simd>(
+        &self,
+        simd: S,
+        factors: &Factors,
+        x: &mut [Lanes],
+        moved: CoordinateSet,
+    ) {
         self.pattern.solve(simd, &factors.a, x, moved);
     }
 

@@ -11,7 +11,7 @@ use super::{
 use crate::{
     dynamics::{ForcedModel, ForcedTangent},
     numerics::elimination::{
-        ALL, Factors, LANES, Lanes, Reals, Stiffness,
+        ALL, CoordinateSet, Factors, LANES, Lanes, Reals, Stiffness,
         lanes::{add, mul, mul_add},
     },
     track::Track,
@@ -36,7 +36,7 @@ pub struct Response<'a> {
 struct Excited {
     forces: Vec<Force>,
     /// Coordinates that it moves, as bits: in a symmetric model not all.
-    moved: u32,
+    moved: CoordinateSet,
     outputs: Vec<OutputTerms>,
     q: Vec<Lanes>,
     /// Changes by each design constant; `None`: no change.
@@ -62,7 +62,7 @@ struct RailsTangent {
 
 impl Tangent {
     /// Coordinates on which it acts, as bits, where some are moved.
-    fn coordinates(&self, moved: u32) -> u32 {
+    fn coordinates(&self, moved: CoordinateSet) -> CoordinateSet {
         let couplings = self.couplings.iter();
         couplings
             .filter(|coupling| moved & (1 << coupling.column) != 0)

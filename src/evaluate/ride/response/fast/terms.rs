@@ -9,7 +9,7 @@ use crate::{
     numerics::{
         LinearSystem,
         elimination::{
-            LANES, Lanes, Reals,
+            CoordinateSet, LANES, Lanes, Reals,
             lanes::{mul, neg},
         },
     },
@@ -105,7 +105,7 @@ pub(super) struct OutputTerms {
 }
 
 /// Coordinates on which forces act, as bits.
-pub(super) fn coordinates(forces: &[Force]) -> u32 {
+pub(super) fn coordinates(forces: &[Force]) -> CoordinateSet {
     forces
         .iter()
         .fold(0, |all, force| all | 1 << force.coordinate)
@@ -116,7 +116,7 @@ pub(super) fn outputs(
     model: &ForcedModel,
     excitation: &Excitation,
     range: Range<usize>,
-    moved: u32,
+    moved: CoordinateSet,
 ) -> Vec<OutputTerms> {
     let n = model.system.order();
     let outputs = model.outputs[range].iter();
@@ -127,7 +127,7 @@ pub(super) fn outputs(
 
 impl OutputTerms {
     /// Terms of an output of a model with `n` coordinates, of which only some are moved.
-    pub fn new(output: &Output, excitation: &Excitation, n: usize, moved: u32) -> Self {
+    pub fn new(output: &Output, excitation: &Excitation, n: usize, moved: CoordinateSet) -> Self {
         let terms = |row: &Row| {
             let mut terms: Vec<(Source, f64)> = Vec::with_capacity(row.terms().len());
             for &(i, c) in row.terms() {
