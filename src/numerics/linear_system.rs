@@ -42,7 +42,7 @@ impl LinearSystem {
         }
     }
 
-    /// Takes note of two groups of coordinates, counterparts of each other, if they are alike.
+    /// Records pairs of coordinates of two parts as [`LinearSystem::alike`] if both parts have one shape.
     pub fn find_alike(&mut self, pairs: Vec<[usize; 2]>) {
         if parts::have_one_shape(self, &pairs) {
             self.alike = pairs;

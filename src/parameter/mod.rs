@@ -90,6 +90,11 @@ impl Parameter {
         (0..registry::OF_TABLE).map(Self)
     }
 
+    /// Whether it is one of Table 4.1.1.
+    pub fn is_of_table(self) -> bool {
+        self.0 < registry::OF_TABLE
+    }
+
     /// Parameters that are numbers of the case themselves: together they say all that a design can be.
     pub fn plain() -> impl DoubleEndedIterator<Item = Self> + Clone {
         Self::all().filter(|p| p.constant() == *p)
@@ -98,7 +103,7 @@ impl Parameter {
     /// Place in the order in which the parameters of a design are set: masses and lengths before the springs
     /// whose frequencies depend on them.
     pub fn setting_order(self) -> (bool, u16) {
-        (self.0 < registry::OF_TABLE, self.0)
+        (self.is_of_table(), self.0)
     }
 
     /// The same, of Table 4.1.1.
@@ -148,11 +153,6 @@ impl Parameter {
     /// The parameter with that name in specs.
     pub fn named(name: &str) -> Option<Self> {
         Self::all().find(|p| p.name() == name)
-    }
-
-    /// The parameter that is the number at a path of a case.
-    pub fn at(path: &str) -> Option<Self> {
-        Self::plain().find(|p| p.key().is_some_and(|key| key.path == path))
     }
 
     /// Key of the number; `None` for one that stands for another.

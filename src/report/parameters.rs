@@ -13,8 +13,7 @@ use crate::{parameter::Parameter, units::number::both};
 /// The section.
 pub fn parameters(report: &Report) -> Markup {
     let designed = &report.spec.design;
-    let shown = Parameter::all()
-        .filter(|p| Parameter::of_table().any(|t| t == *p) || designed.freedom(*p).is_some());
+    let shown = Parameter::all().filter(|p| p.is_of_table() || designed.freedom(*p).is_some());
     let rows: Vec<Vec<String>> = shown.map(|p| row(report, p)).collect();
     let mut columns = vec![("parameter", Column::Head), ("symbol", Column::Symbol)];
     columns.extend(if report.designed {

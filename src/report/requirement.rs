@@ -141,7 +141,7 @@ fn further(condition: &Condition) -> Markup {
         rows.push(vec!["track".into(), track.name.clone(), String::new()]);
     }
     for (path, si) in &condition.values {
-        if let Some(key) = keys::case().find(|key| key.path == *path) {
+        if let Some(key) = keys::at(path) {
             let [si, us] = both(key.quantity, *si);
             rows.push(vec![(*path).into(), si, us]);
         }

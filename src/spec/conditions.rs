@@ -12,7 +12,7 @@ use super::case::conicity;
 use super::demands::demands;
 use super::diagnostic::{Collect, Diagnostic, word};
 use super::document::{Document, bad_name};
-use super::keys::{self, CaseKey};
+use super::keys;
 use super::value::number;
 use crate::case::Case;
 use crate::index::Demands;
@@ -36,7 +36,7 @@ impl Condition {
     pub fn apply(&self, case: &Case) -> Case {
         let mut case = case.clone();
         for (path, value) in &self.values {
-            if let Some(key) = key(path) {
+            if let Some(key) = keys::at(path) {
                 key.set(&mut case, *value);
             }
         }
@@ -45,10 +45,6 @@ impl Condition {
         }
         case
     }
-}
-
-fn key(path: &str) -> Option<&'static CaseKey> {
-    keys::case().find(|key| key.path == path)
 }
 
 /// Reads `[conditions]`; beside each condition what it says, by path.

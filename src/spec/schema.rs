@@ -126,7 +126,7 @@ fn complete() -> Value {
 
 /// The schema of the entry at `path`.
 fn entry(path: &str) -> Value {
-    if let Some(key) = keys::case().find(|key| key.path == path) {
+    if let Some(key) = keys::at(path) {
         let range = match key.path {
             // The end of the report's table is none for coefficients of one's own.
             keys::CONICITY => Range::Positive,
@@ -176,7 +176,7 @@ fn freedom(parameter: Parameter) -> Value {
     }
     if !ties.is_empty() {
         // Names of all parameters would make the schema many times as long.
-        let ties = if Parameter::of_table().any(|p| p == parameter) {
+        let ties = if parameter.is_of_table() {
             json!({ "enum": ties })
         } else {
             json!({ "type": "string" })

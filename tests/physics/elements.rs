@@ -107,12 +107,10 @@ fn exchanged_ends_are_the_vehicle_from_behind() {
     let mut case = Case::prototype();
     let mut exchanged = case.clone();
     for (k, name) in names.into_iter().enumerate() {
-        let leading = Parameter::at(name).expect(name);
+        let leading = bogie::spec::keys::at(name).expect(name);
         let trailing = number(&format!("trailing.{name}"));
-        let (value, other) = (
-            leading.get(&case),
-            (1.2 + 0.1 * k as f64) * leading.get(&case),
-        );
+        let value = leading.get(&case).expect(name);
+        let other = (1.2 + 0.1 * k as f64) * value;
         leading.set(&mut case, value);
         trailing.set(&mut case, other);
         leading.set(&mut exchanged, other);

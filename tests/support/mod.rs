@@ -39,7 +39,7 @@ fn case_of(entry: &Value) -> Case {
             }
             continue;
         }
-        let key = keys::case().find(|key| key.path == path).expect(path);
+        let key = keys::at(path).expect(path);
         key.set(&mut case, value.as_f64().unwrap());
     }
     case

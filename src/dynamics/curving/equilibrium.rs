@@ -169,9 +169,10 @@ impl CurvingModel {
         for (j, state) in state.into_iter().enumerate() {
             let (element, offset, torque) = self.yaw_element(j);
             let k = element.law.steady_stiffness();
+            let stretch = |x: &DVector<f64>| form(&element.stretch, x.len(), |i| x[i]);
             let elastic = [
-                k * form(&element.stretch, &at_zero),
-                k * (form(&element.stretch, &per_curvature) + offset),
+                k * stretch(&at_zero),
+                k * (stretch(&per_curvature) + offset),
             ];
             // Each condition reads value + slope·κ ≥ 0.
             let conditions: &[[f64; 2]] = match state {
@@ -198,12 +199,8 @@ impl CurvingModel {
     pub fn stretch_at(&self, name: Name, curvature: f64) -> f64 {
         let segment = self.segment_at(curvature);
         let (element, offset) = self.element(name);
-        let terms = element.stretch.terms().iter();
-        let coordinates = terms.filter(|(i, _)| *i < self.load.len());
-        let form: f64 = coordinates
-            .map(|&(i, c)| c * segment.displacement(i, curvature))
-            .sum();
-        form + curvature * offset
+        let displacement = |i| segment.displacement(i, curvature);
+        form(&element.stretch, self.load.len(), displacement) + curvature * offset
     }
 
     /// Primary longitudinal stroke of wheelset `i` at a curvature, m: d_p (ψ_t − ψ_w ± b/R).

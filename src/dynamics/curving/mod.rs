@@ -175,14 +175,14 @@ impl CurvingModel {
     /// Stretch of an element for displacements of the model, m or rad, on smooth track at a curvature, 1/m.
     pub(crate) fn stretch(&self, name: Name, x: &DVector<f64>, curvature: f64) -> f64 {
         let (element, offset) = self.element(name);
-        form(&element.stretch, x) + curvature * offset
+        form(&element.stretch, x.len(), |i| x[i]) + curvature * offset
     }
 }
 
-/// Value of a linear form in displacements, without inputs.
-fn form(row: &Row, x: &DVector<f64>) -> f64 {
-    let terms = row.terms().iter().filter(|(i, _)| *i < x.len());
-    terms.map(|&(i, c)| c * x[i]).sum()
+/// Value of a linear form in the displacements of `n` coordinates, without inputs.
+fn form(row: &Row, n: usize, displacement: impl Fn(usize) -> f64) -> f64 {
+    let terms = row.terms().iter().filter(|(i, _)| *i < n);
+    terms.map(|&(i, c)| c * displacement(i)).sum()
 }
 
 /// Load that the outer wheel of every axle of truck `j` gains and the inner wheel loses, N.

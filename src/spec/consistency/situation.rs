@@ -65,7 +65,7 @@ impl<'d> Situation<'d> {
         let has_base = self.document.get(keys::BASE).is_some();
         for (path, place) in paths.iter().zip(&places) {
             let is_required = |path| {
-                let key = keys::case().find(|key| key.path == path);
+                let key = keys::at(path);
                 key.is_some_and(|key| key.need == Need::Required)
             };
             match place {

@@ -63,7 +63,7 @@ const AXLE: f64 = 45_000.0;
 pub fn unusual(situation: &Situation, doubts: &mut Vec<Diagnostic>) {
     let suffix = situation.suffix();
     for &(path, least, most, why) in USUAL {
-        let Some(key) = keys::case().find(|key| key.path == path) else {
+        let Some(key) = keys::at(path) else {
             continue;
         };
         if let Some(si) = key.get(&situation.case)

@@ -28,6 +28,11 @@ pub fn case() -> impl Iterator<Item = &'static CaseKey> {
     parameter::keys().iter()
 }
 
+/// The numeric key at a path.
+pub fn at(path: &str) -> Option<&'static CaseKey> {
+    case().find(|key| key.path == path)
+}
+
 /// Keys of the air spring: all or none.
 pub(super) fn air_spring() -> impl Iterator<Item = &'static CaseKey> {
     case().filter(|key| key.table() == AIR_SPRING.path)

@@ -20,7 +20,7 @@ fn close(a: f64, b: f64) -> bool {
 
 /// A spec with every value of a case, in the quantities' SI or US display units.
 fn write(values: &[(&str, f64)], us: bool) -> String {
-    let key = |path: &str| keys::case().find(|key| key.path == path).unwrap();
+    let key = |path: &str| keys::at(path).unwrap();
     let line = |&(path, si): &(&str, f64)| {
         let quantity = key(path).quantity;
         let unit = if us { quantity.us() } else { quantity.si() };

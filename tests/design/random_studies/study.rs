@@ -107,7 +107,7 @@ fn vehicle(rng: &mut Random, lines: &mut Vec<String>) -> Case {
         let factor = if rng.random_bool(0.7) { 1.3 } else { 3.0 };
         case = random_vehicle(rng, factor);
         for (path, si) in keys::inputs_si(&case) {
-            let key = keys::case().find(|key| key.path == path).expect(path);
+            let key = keys::at(path).expect(path);
             if path != "service.speed" {
                 lines.push(format!("{path} = {}", written(rng, key.quantity, si)));
             }
@@ -148,7 +148,7 @@ fn vehicle(rng: &mut Random, lines: &mut Vec<String>) -> Case {
         let mut of = |name: &str, quantity, si| {
             let path = format!("suspension.secondary.air_spring.{name}");
             lines.push(format!("{path} = {}", written(rng, quantity, si)));
-            let key = keys::case().find(|key| key.path == path).expect("a key");
+            let key = keys::at(&path).expect("a key");
             key.set(&mut case, si);
         };
         of("direct_stiffness", Quantity::Stiffness, 0.4 * k_sz);
@@ -322,7 +322,7 @@ fn condition(rng: &mut Random, case: &Case, name: &str, lines: &mut Vec<String>)
     changed.truncate(rng.random_range(0..=3));
     let mut case = case.clone();
     for path in changed {
-        let key = keys::case().find(|key| key.path == path).expect(path);
+        let key = keys::at(path).expect(path);
         let own = key.get(&case).unwrap_or(0.02);
         let si = within(key.range, own * rng.random_range(0.7..1.3));
         key.set(&mut case, si);
